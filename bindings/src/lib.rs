@@ -1,0 +1,17 @@
+//! Python face of the core: conversion, shape checks and error mapping only. One file for each module of the core.
+
+use pyo3::prelude::*;
+
+mod cloud;
+mod model;
+mod perception;
+mod sensor;
+
+#[pymodule]
+fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    cloud::register(m)?;
+    perception::register(m)?;
+    model::register(m)?;
+    sensor::register(m)?;
+    Ok(())
+}

@@ -1,0 +1,10 @@
+//! Planes, convex hulls and minimum bounding rectangles.
+
+mod plane;
+mod rectangle;
+
+pub use plane::Plane;
+pub use rectangle::Rectangle;
+
+/// A vector or point in metres (or a unit direction), in double precision.
+pub type Vec3 = nalgebra::Vector3<f64>;

@@ -1,0 +1,1 @@
+//! Search for the best assignments of segments to parts.

@@ -1,0 +1,1 @@
+//! Object models as data: templates, features, relations, weights.

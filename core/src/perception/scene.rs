@@ -1,0 +1,51 @@
+use crate::geometry::{Plane, Rectangle, Vec3};
+
+/// Planar segments as a structure of arrays; entry `s` of each array belongs to segment `s`.
+#[derive(Debug, Clone, Default)]
+pub struct Segments {
+    /// Plane of the segment; its normal looks at the viewpoint where the cloud has one, else its sign means nothing.
+    pub planes: Vec<Plane>,
+    /// Minimum bounding rectangle of the segment's points, in its plane.
+    pub rectangles: Vec<Rectangle>,
+    /// Convex hull of the segment's points, in its plane, going round.
+    pub hulls: Vec<Vec<Vec3>>,
+    /// Root mean square distance of the points from the plane, metres.
+    pub rms: Vec<f64>,
+    /// Number of the cluster (the group of things that touch), from 0.
+    pub group: Vec<u32>,
+    /// Point indices of all segments, one after another; those of `s` are `point_indices[point_starts[s]..point_starts[s + 1]]`.
+    pub point_indices: Vec<u32>,
+    /// One longer than the number of segments.
+    pub point_starts: Vec<u32>,
+}
+
+impl Segments {
+    pub fn len(&self) -> usize {
+        self.planes.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.planes.is_empty()
+    }
+
+    /// Indices into the cloud of the points of segment `s`.
+    pub fn points_of(&self, s: usize) -> &[u32] {
+        &self.point_indices[self.point_starts[s] as usize..self.point_starts[s + 1] as usize]
+    }
+}
+
+/// What perception says of a cloud.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Unit vector away from the support, input's frame.
+    pub up: Vec3,
+    /// The plane that the objects stand on, normal along `up`; `None` where the cloud shows none.
+    pub support: Option<Plane>,
+    /// Where the sensor stood, if the cloud says it; then segment normals are oriented.
+    pub viewpoint: Option<Vec3>,
+    pub segments: Segments,
+    /// What a user should know about the answer, one line each.
+    pub warnings: Vec<String>,
+    /// Seconds of each stage, in order.
+    pub stage_seconds: Vec<(&'static str, f64)>,
+}

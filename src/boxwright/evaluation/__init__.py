@@ -1,0 +1,1 @@
+"""Figures of merit against the truth of labelled frames."""

@@ -1,0 +1,1 @@
+"""Exports of the articulated model for robot stacks and physics."""

@@ -1,0 +1,1 @@
+"""Learning of the weights from labelled frames."""

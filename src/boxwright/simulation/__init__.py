@@ -1,0 +1,1 @@
+"""Simulated scenes and sensor. Imports neither perception nor inference, nor they it."""

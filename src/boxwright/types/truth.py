@@ -1,0 +1,51 @@
+"""What is really there in a labelled frame (`NAME.truth.json`)."""
+
+from __future__ import annotations
+
+import msgspec
+
+Vector = tuple[float, float, float]
+"""A point in metres or a unit vector, in the input's frame."""
+
+
+class Camera(msgspec.Struct, frozen=True):
+    """Pinhole intrinsics in pixels."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: int
+    height: int
+
+
+class TrueBox(msgspec.Struct, frozen=True):
+    """One open box of the frame; `dims` is length, width, height in metres."""
+
+    index: int
+    category: str
+    variant: str
+    dims: tuple[float, float, float]
+
+
+class TruePart(msgspec.Struct, frozen=True):
+    """One panel. Corners in metres, input's frame, in the order of docs/formats.md; `angle_deg` is None where nothing turns."""
+
+    box: int
+    name: str
+    parent: str | None
+    extra: bool
+    angle_deg: float | None
+    corners: tuple[Vector, Vector, Vector, Vector]
+    visible_px: int
+
+
+class Truth(msgspec.Struct, frozen=True):
+    """A frame's truth. Label `k` of `NAME.labels.npz` is `parts[k - 1]`; 0 is none."""
+
+    name: str
+    category: str
+    camera: Camera
+    up: Vector
+    boxes: tuple[TrueBox, ...]
+    parts: tuple[TruePart, ...]
