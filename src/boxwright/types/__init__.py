@@ -1,5 +1,6 @@
 """Frozen types, a leaf of the house: they hold and check values and know no algorithm."""
 
-from boxwright.types.truth import Camera, Truth, TrueBox, TruePart
+from boxwright.types.cloud import Cloud
+from boxwright.types.truth import Camera, TrueBox, TruePart, Truth
 
-__all__ = ["Camera", "Truth", "TrueBox", "TruePart"]
+__all__ = ["Camera", "Cloud", "TrueBox", "TruePart", "Truth"]
