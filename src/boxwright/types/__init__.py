@@ -1,6 +1,24 @@
 """Frozen types, a leaf of the house: they hold and check values and know no algorithm."""
 
-from boxwright.types.cloud import Cloud
+from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, PartState, Pose
+from boxwright.types.model import Inference, Model, Object, Seconds, Source, SupportPlane
 from boxwright.types.truth import Camera, TrueBox, TruePart, Truth
 
-__all__ = ["Camera", "Cloud", "TrueBox", "TruePart", "Truth"]
+__all__ = [
+    "Camera",
+    "Inference",
+    "Joint",
+    "JointSigma",
+    "Model",
+    "Object",
+    "Parameter",
+    "Part",
+    "PartState",
+    "Pose",
+    "Seconds",
+    "Source",
+    "SupportPlane",
+    "TrueBox",
+    "TruePart",
+    "Truth",
+]

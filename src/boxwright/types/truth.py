@@ -29,7 +29,7 @@ class TrueBox(msgspec.Struct, frozen=True):
 
 
 class TruePart(msgspec.Struct, frozen=True):
-    """One panel. Corners in metres, input's frame, in the order of docs/formats.md; `angle_deg` is None where nothing turns."""
+    """One panel. Corners in metres, input's frame, order of docs/formats.md; `angle_deg` None where nothing turns."""
 
     box: int
     name: str

@@ -1,0 +1,54 @@
+"""Value checks that the types share; each raises ValueError with one line that says what would have been right."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+
+UNIT_TOLERANCE = 1e-6
+"""How far the length of a unit vector or quaternion may be from 1: above float32 rounding, below any real mistake."""
+
+NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_]*$"
+"""Names of templates, parts and joints: safe as they stand in URDF, MJCF, ROS and file names."""
+
+
+def require_finite(name: str, values: Iterable[float]) -> None:
+    """Refuse NaN and infinities."""
+    for value in values:
+        if not math.isfinite(value):
+            raise ValueError(f"{name} holds {value}; it must be finite")
+
+
+def require_unit(name: str, values: tuple[float, ...]) -> None:
+    """Refuse a vector or quaternion whose length is not 1 within UNIT_TOLERANCE."""
+    require_finite(name, values)
+    length = math.hypot(*values)
+    if abs(length - 1.0) > UNIT_TOLERANCE:
+        raise ValueError(f"{name} has length {length:.9g}; it must be a unit vector (length 1)")
+
+
+def require_positive(name: str, values: Iterable[float]) -> None:
+    """Refuse anything that is not finite and above 0."""
+    for value in values:
+        if not (math.isfinite(value) and value > 0.0):
+            raise ValueError(f"{name} holds {value}; it must be above 0")
+
+
+def require_not_negative(name: str, values: Iterable[float]) -> None:
+    """Refuse anything that is not finite and at least 0."""
+    for value in values:
+        if not (math.isfinite(value) and value >= 0.0):
+            raise ValueError(f"{name} holds {value}; it must be 0 or more")
+
+
+def require_probability(name: str, value: float | None) -> None:
+    """Refuse a number outside 0..1; None (not known) passes."""
+    if value is not None and not 0.0 <= value <= 1.0:
+        raise ValueError(f"{name} is {value}; a probability lies in 0..1")
+
+
+def require_name(name: str, value: str) -> None:
+    """Refuse a name that NAME_PATTERN does not match."""
+    if re.fullmatch(NAME_PATTERN, value) is None:
+        raise ValueError(f"{name} is {value!r}; a name is a letter, then letters, digits and underscores")
