@@ -1,11 +1,13 @@
 """Frozen types, a leaf of the house: they hold and check values and know no algorithm."""
 
 from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, PartState, Pose
+from boxwright.types.cloud import Cloud
 from boxwright.types.model import Inference, Model, Object, Seconds, Source, SupportPlane
 from boxwright.types.truth import Camera, TrueBox, TruePart, Truth
 
 __all__ = [
     "Camera",
+    "Cloud",
     "Inference",
     "Joint",
     "JointSigma",
