@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 RUST_SOURCES := $(shell find core/src sensor/src bindings/src -name '*.rs') Cargo.toml core/Cargo.toml sensor/Cargo.toml bindings/Cargo.toml
 
-.PHONY: setup test check
+.PHONY: setup test check schemas
 
 setup: $(VENV)/.built
 
@@ -27,3 +27,6 @@ check: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+
+schemas: setup
+	$(BIN)/python -m boxwright.io.schemas docs/schemas

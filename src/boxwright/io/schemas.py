@@ -1,0 +1,39 @@
+"""The published JSON Schemas, generated from the types: `python -m boxwright.io.schemas docs/schemas`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import msgspec
+
+from boxwright.types import Model, Truth
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+SCHEMAS: dict[str, tuple[type[msgspec.Struct], str]] = {
+    "model.schema.json": (Model, "boxwright model.json, version 1"),
+    "truth.schema.json": (Truth, "boxwright NAME.truth.json of a scene set"),
+}
+"""File name to the type that it describes, and its title."""
+
+
+def schema_text(name: str) -> str:
+    """The text of a schema file; what a shape cannot say (unit vectors, names that must match) the types check."""
+    record, title = SCHEMAS[name]
+    schema = {"$schema": DIALECT, "title": title, **msgspec.json.schema(record)}
+    return json.dumps(schema, indent=2) + "\n"
+
+
+def write_schemas(folder: Path) -> None:
+    """Write every schema into a folder, which is made where it is missing."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in SCHEMAS:
+        (folder / name).write_text(schema_text(name), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: python -m boxwright.io.schemas FOLDER")
+    write_schemas(Path(sys.argv[1]))
