@@ -1,1 +1,70 @@
-//! The two ways through: from a cloud to articulated objects in one call.
+//! The paper's way through: from a cloud to articulated objects in one call.
+
+use std::time::Instant;
+
+use crate::body::{build_object, ObjectAnswer};
+use crate::inference::{find_objects, FoundObject, ObjectModel, StagedSettings};
+use crate::model::{Assignment, Body, SegmentSet};
+use crate::perception::Scene;
+
+const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
+
+/// The objects of a scene, best first, and which of their parts each point belongs to.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    pub objects: Vec<ObjectAnswer>,
+    /// For each point the number of its object, -1 for none.
+    pub object_of_point: Vec<i16>,
+    /// For each point the number of its part among that object's parts, -1 for none.
+    pub part_of_point: Vec<i16>,
+    pub warnings: Vec<String>,
+    /// Seconds of each stage, in order.
+    pub stage_seconds: Vec<(&'static str, f64)>,
+}
+
+/// Understands a scene of `point_count` points: every group of segments against every object model.
+pub fn understand(scene: &Scene, point_count: usize, models: &[ObjectModel], settings: &StagedSettings) -> Answer {
+    let start = Instant::now();
+    let mut found: Vec<(SegmentSet, FoundObject)> = Vec::new();
+    for set in SegmentSet::by_group(scene) {
+        let objects = find_objects(models, &set, settings);
+        found.extend(objects.into_iter().map(|object| (set.clone(), object)));
+    }
+    // A stable sort: groups keep their order among equal scores.
+    found.sort_by(|a, b| b.1.candidate.score.total_cmp(&a.1.candidate.score));
+    let inference_seconds = start.elapsed().as_secs_f64();
+
+    let start = Instant::now();
+    let mut answer = Answer {
+        objects: Vec::new(),
+        object_of_point: vec![-1; point_count],
+        part_of_point: vec![-1; point_count],
+        warnings: Vec::new(),
+        stage_seconds: Vec::new(),
+    };
+    for (set, object) in &found {
+        let template = &models[object.model].template;
+        let (built, assignment) = build_object(template, scene, set, object);
+        if built.pose.is_none() && template.body != Body::Free {
+            let number = answer.objects.len();
+            answer.warnings.push(format!("object {number} ({}): {NO_POSE}", template.name));
+        }
+        answer.add(built, scene, set, &assignment);
+    }
+    answer.stage_seconds = vec![("inference", inference_seconds), ("body", start.elapsed().as_secs_f64())];
+    answer
+}
+
+impl Answer {
+    fn add(&mut self, object: ObjectAnswer, scene: &Scene, set: &SegmentSet, assignment: &Assignment) {
+        let number = self.objects.len();
+        for (part, segment) in assignment.iter().enumerate() {
+            let Some(s) = segment else { continue };
+            for &point in scene.segments.points_of(set.scene_index[*s]) {
+                self.object_of_point[point as usize] = number as i16;
+                self.part_of_point[point as usize] = part as i16;
+            }
+        }
+        self.objects.push(object);
+    }
+}

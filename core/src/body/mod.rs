@@ -1,1 +1,12 @@
-//! From an assignment of segments to parts to an articulated body: corners, hinges, angles.
+//! From an assignment of segments to parts to an articulated body: corners, hinges, angles (docs/maths.md, "Body").
+
+mod answer;
+mod box_frame;
+mod box_panels;
+mod build;
+mod free;
+mod hinge;
+mod ring;
+
+pub use answer::{InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer};
+pub use build::build_object;

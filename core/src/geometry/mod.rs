@@ -1,5 +1,6 @@
 //! Planes, convex hulls and minimum bounding rectangles.
 
+pub mod angles;
 mod plane;
 mod rectangle;
 

@@ -1,1 +1,16 @@
-//! Search for the best assignments of segments to parts.
+//! Search for the best assignments of segments to parts (the paper's section on inference; docs/maths.md, "Inference").
+//!
+//! States: part `p` is in state 0 where it stays empty, and in state `s + 1` where it takes member `s` of the segment set.
+
+mod completion;
+mod exhaustive;
+mod graph;
+mod objects;
+mod potentials;
+mod queue;
+mod staged;
+
+pub use exhaustive::best_exhaustive;
+pub use graph::{RelationGraph, SearchPlan};
+pub use objects::{find_objects, FoundObject, ObjectModel};
+pub use staged::{rank_staged, Candidate, Ranking, StagedSettings};

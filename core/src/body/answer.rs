@@ -1,0 +1,82 @@
+//! An object as `model.json` writes it (docs/formats.md); metres, radians, the input's frame.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::geometry::Vec3;
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ObjectAnswer {
+    pub template: String,
+    pub template_probability: Option<f64>,
+    pub score: f64,
+    pub probability: Option<f64>,
+    pub inference: InferenceAnswer,
+    pub dimensions: Option<[f64; 3]>,
+    pub outer_dimensions: Option<[f64; 3]>,
+    pub thickness: Option<f64>,
+    pub pose: Option<PoseAnswer>,
+    pub parameters: BTreeMap<String, ParameterAnswer>,
+    pub parts: Vec<PartAnswer>,
+    pub joints: Vec<JointAnswer>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ParameterAnswer {
+    pub value: f64,
+    pub sigma: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InferenceAnswer {
+    pub status: &'static str,
+    pub gap: Option<f64>,
+    pub alternatives: usize,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PoseAnswer {
+    pub position: [f64; 3],
+    /// x, y, z, w.
+    pub orientation: [f64; 4],
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PartAnswer {
+    pub name: String,
+    pub observed: bool,
+    pub state: Option<()>,
+    pub corners: Option<[[f64; 3]; 4]>,
+    pub points: usize,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointAnswer {
+    pub name: String,
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    pub parent: String,
+    pub child: String,
+    pub origin: [f64; 3],
+    pub axis: [f64; 3],
+    pub position: f64,
+    pub limits: [f64; 2],
+    pub sigma: Option<()>,
+}
+
+impl InferenceAnswer {
+    /// `gap`: how much a better assignment could add at most; infinite where nobody knows.
+    pub fn new(gap: f64, alternatives: usize) -> Self {
+        let status = if gap == 0.0 { "optimal" } else { "gap" };
+        Self { status, gap: gap.is_finite().then_some(gap), alternatives }
+    }
+}
+
+pub fn array(v: &Vec3) -> [f64; 3] {
+    [v.x, v.y, v.z]
+}
+
+pub fn corner_arrays(corners: &[Vec3; 4]) -> [[f64; 3]; 4] {
+    corners.map(|c| array(&c))
+}

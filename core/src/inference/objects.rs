@@ -1,0 +1,62 @@
+//! Several objects among the same segments: the best one first, then the best of what it left.
+
+use super::graph::SearchPlan;
+use super::staged::{rank_staged, Candidate, StagedSettings};
+use crate::model::{FeatureTables, SegmentSet, Template, Weights};
+
+/// A template with weights and the way to search it: what competes for the segments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObjectModel {
+    pub template: Template,
+    pub weights: Weights,
+    pub plan: SearchPlan,
+}
+
+impl ObjectModel {
+    pub fn new(template: Template, weights: Weights, settings: &StagedSettings) -> Self {
+        let plan = SearchPlan::within(&template, &weights, settings.max_exponent);
+        Self { template, weights, plan }
+    }
+}
+
+/// An assignment that passed as an object.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundObject {
+    /// Number of the object model that it is an instance of.
+    pub model: usize,
+    pub candidate: Candidate,
+    pub gap: f64,
+    /// Other assignments that were ranked against it.
+    pub alternatives: usize,
+}
+
+/// Takes objects out of the segments, best first, until none reaches its weights' `accept_score`. No segment is used
+/// twice; of models that score the same the first one wins.
+pub fn find_objects(models: &[ObjectModel], set: &SegmentSet, settings: &StagedSettings) -> Vec<FoundObject> {
+    let tables: Vec<FeatureTables> = models.iter().map(|model| FeatureTables::new(&model.template, set)).collect();
+    let mut taken = vec![false; set.len()];
+    let mut found = Vec::new();
+    while let Some(object) = best_object(models, &tables, &taken, settings) {
+        for segment in object.candidate.assignment.iter().flatten() {
+            taken[*segment] = true;
+        }
+        found.push(object);
+    }
+    found
+}
+
+fn best_object(
+    models: &[ObjectModel],
+    tables: &[FeatureTables],
+    taken: &[bool],
+    settings: &StagedSettings,
+) -> Option<FoundObject> {
+    let contenders = models.iter().zip(tables).enumerate().filter_map(|(number, (model, tables))| {
+        let ranking = rank_staged(&model.template, &model.weights, tables, &model.plan, taken, settings);
+        let alternatives = ranking.candidates.len().saturating_sub(1);
+        let candidate = ranking.candidates.into_iter().find(|c| model.template.accept.allows(&c.assignment))?;
+        let passes = candidate.score >= model.weights.accept_score;
+        passes.then_some(FoundObject { model: number, candidate, gap: ranking.gap, alternatives })
+    });
+    contenders.reduce(|best, next| if next.candidate.score > best.candidate.score { next } else { best })
+}

@@ -1,0 +1,32 @@
+//! Features phi: what one segment says of being one part (eqs. 2-4 of docs/maths.md). One file for each kind.
+
+mod existence;
+mod location;
+mod orientation;
+
+pub use location::{Location, Reference};
+pub use orientation::{Direction, Orientation};
+
+use super::SegmentSet;
+
+/// A feature kind with its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Feature {
+    /// phi 1.
+    Orientation(Orientation),
+    /// phi 2.
+    Location(Location),
+    /// phi 3.
+    Existence,
+}
+
+impl Feature {
+    /// Value for segment `s`; radians, metres or a count, as the kind says.
+    pub fn value(&self, set: &SegmentSet, s: usize) -> f64 {
+        match self {
+            Self::Orientation(orientation) => orientation.value(set, s),
+            Self::Location(location) => location.value(set, s),
+            Self::Existence => existence::value(),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::Template;
+use crate::error::{InputError, Result};
+
+const FORMAT: &str = "boxwright.weights";
+const VERSION: u32 = 1;
+
+/// What each term of a template counts, aligned with `Template::term_names`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Weights {
+    pub values: Vec<f64>,
+    /// How much each term matters by learning; the search drops the least important relations first.
+    pub importance: Vec<f64>,
+    /// An assignment below this score is no object.
+    pub accept_score: f64,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct WeightsFile {
+    format: String,
+    version: u32,
+    template: String,
+    weights: BTreeMap<String, f64>,
+    importance: BTreeMap<String, f64>,
+    accept_score: f64,
+}
+
+impl Weights {
+    /// Reads weights (JSON text) for `template`.
+    ///
+    /// # Errors
+    /// Weights of another template, missing or unknown names, values that are not finite: the key is named.
+    pub fn from_json(text: &str, template: &Template) -> Result<Self> {
+        let file: WeightsFile = serde_json::from_str(text)
+            .map_err(|error| InputError::new(error.to_string()).mend("boxwright train writes weights that fit"))?;
+        if file.format != FORMAT || file.version != VERSION {
+            return Err(InputError::new(format!("is \"{}\" version {}", file.format, file.version))
+                .at("format")
+                .mend(format!("weights say \"{FORMAT}\", version {VERSION}")));
+        }
+        if file.template != template.name {
+            return Err(InputError::new(format!("weights of \"{}\" do not fit \"{}\"", file.template, template.name))
+                .at("template")
+                .mend("name the weights that were trained for this template"));
+        }
+        if !file.accept_score.is_finite() {
+            return Err(InputError::new("is not a finite number").at("accept_score"));
+        }
+        Ok(Self {
+            values: aligned("weights", &file.weights, template)?,
+            importance: aligned("importance", &file.importance, template)?,
+            accept_score: file.accept_score,
+        })
+    }
+
+    /// J(G) of eq. 1.
+    pub fn score(&self, feature_vector: &[f64]) -> f64 {
+        self.values.iter().zip(feature_vector).map(|(w, f)| w * f).sum()
+    }
+}
+
+fn aligned(key: &str, named: &BTreeMap<String, f64>, template: &Template) -> Result<Vec<f64>> {
+    let names: Vec<&str> = template.term_names().collect();
+    if let Some(extra) = named.keys().find(|name| !names.contains(&name.as_str())) {
+        return Err(InputError::new(format!("\"{extra}\" is no feature or relation of \"{}\"", template.name))
+            .at(key)
+            .mend(format!("its names are {}", names.join(", "))));
+    }
+    names
+        .iter()
+        .map(|&name| match named.get(name) {
+            Some(value) if value.is_finite() => Ok(*value),
+            Some(value) => Err(InputError::new(format!("\"{name}\" is {value}")).at(key).mend("a finite number")),
+            None => {
+                Err(InputError::new(format!("\"{name}\" is missing")).at(key).mend("train again for this template"))
+            }
+        })
+        .collect()
+}
