@@ -32,6 +32,15 @@ impl Segments {
     pub fn points_of(&self, s: usize) -> &[u32] {
         &self.point_indices[self.point_starts[s] as usize..self.point_starts[s + 1] as usize]
     }
+
+    /// The segment of each of the cloud's `point_count` points, -1 for none.
+    pub fn labels(&self, point_count: usize) -> Vec<i32> {
+        let mut labels = vec![-1; point_count];
+        for s in 0..self.len() {
+            self.points_of(s).iter().for_each(|&i| labels[i as usize] = s as i32);
+        }
+        labels
+    }
 }
 
 /// What perception says of a cloud.

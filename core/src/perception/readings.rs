@@ -1,0 +1,53 @@
+use super::PerceptionSettings;
+use crate::cloud::CloudView;
+use crate::error::{InputError, Result};
+use crate::geometry::Vec3;
+
+/// Coordinates beyond this are no reading of a depth sensor, metres.
+const FARTHEST_COORDINATE_M: f32 = 1e4;
+
+/// Range taken for every reading where nobody knows the viewpoint, metres.
+const UNKNOWN_RANGE_M: f64 = 0.8;
+
+/// The finite readings of a cloud, and how well each is known.
+#[derive(Debug, Clone, Copy)]
+pub struct Readings<'a> {
+    pub points: &'a [[f32; 3]],
+    pub viewpoint: Option<Vec3>,
+    settings: &'a PerceptionSettings,
+}
+
+impl<'a> Readings<'a> {
+    pub fn new(cloud: &CloudView<'a>, settings: &'a PerceptionSettings) -> Self {
+        Self { points: cloud.points, viewpoint: cloud.viewpoint, settings }
+    }
+
+    /// Indices of the readings, in input order.
+    ///
+    /// # Errors
+    /// `InputError` where there is none.
+    pub fn finite_indices(&self) -> Result<Vec<u32>> {
+        let is_reading = |p: &[f32; 3]| p.iter().all(|c| c.abs() < FARTHEST_COORDINATE_M);
+        let all = self.points.iter().enumerate();
+        let indices: Vec<u32> = all.filter(|(_, p)| is_reading(p)).map(|(i, _)| i as u32).collect();
+        if indices.is_empty() {
+            let problem = format!("no finite readings among {} points", self.points.len());
+            return Err(InputError::new(problem).mend("a point needs three finite coordinates in metres"));
+        }
+        Ok(indices)
+    }
+
+    pub fn point(&self, index: u32) -> Vec3 {
+        let [x, y, z] = self.points[index as usize];
+        Vec3::new(f64::from(x), f64::from(y), f64::from(z))
+    }
+
+    /// Distance from the sensor, metres.
+    pub fn range_m(&self, p: &Vec3) -> f64 {
+        self.viewpoint.map_or(UNKNOWN_RANGE_M, |v| (p - v).norm())
+    }
+
+    pub fn tolerance_m(&self, p: &Vec3) -> f64 {
+        self.settings.tolerance_m(self.range_m(p))
+    }
+}

@@ -1,0 +1,226 @@
+//! Which way is up, and on which plane the things stand.
+
+use super::footing::{footing, Footing};
+use super::ransac::{PlaneSearch, SitePlane};
+use super::readings::Readings;
+use super::sites::Sites;
+use super::PerceptionSettings;
+use crate::error::{InputError, Result};
+use crate::geometry::{minimum_rectangle, Moments, Plane, PlaneFrame, Vec3};
+
+/// Planes of the scene that are looked at.
+const MAX_SCENE_PLANES: usize = 14;
+/// A plane of the scene covers at least this.
+const MIN_SCENE_PLANE_M2: f64 = 0.02;
+/// How far from the first cell of a triple the other two may lie, metres.
+const SCENE_REACH_M: f64 = 0.25;
+/// Cells of the scene, at most.
+const MAX_SCENE_SITES: usize = 60_000;
+/// A plane of which less is free is the bottom of a container, not the ground around one.
+const MIN_FREE_SHARE: f64 = 0.2;
+/// Planes that bear less than this share of the best one's things are out.
+const MIN_STANDING_SHARE: f64 = 0.4;
+/// Fewer cells of standing things than this say nothing.
+const MIN_STANDING: f64 = 8.0;
+/// Worth of a plane that would mean the camera hangs upside down.
+const UPSIDE_DOWN_PRIOR: f64 = 0.35;
+/// Two planes with no thing on them are both plausible where the lesser has this share of the larger one's area.
+const RIVAL_SHARE: f64 = 0.5;
+/// The origin tells the side of a plane from this distance, metres.
+const CLEARLY_OFF_M: f64 = 0.2;
+
+/// The ground of a scene.
+#[derive(Debug, Clone)]
+pub struct Ground {
+    pub up: Vec3,
+    /// `None` where the cloud shows none.
+    pub support: Option<Plane>,
+    /// Planes too large to belong to a thing (walls of the room), without the support.
+    pub room: Vec<Plane>,
+    pub warnings: Vec<String>,
+}
+
+/// Finds up, the support and the walls of the room.
+///
+/// # Errors
+/// `InputError` where several directions are plausible, or the support is seen from below.
+pub fn find_ground(
+    readings: &Readings,
+    indices: &[u32],
+    organized: bool,
+    settings: &PerceptionSettings,
+) -> Result<Ground> {
+    let sites = Sites::new(readings, indices, settings.scene_cell_m, MAX_SCENE_SITES);
+    let planes = scene_planes(&sites, settings);
+    let is_large: Vec<bool> = planes.iter().map(|p| longest_side(&sites, p) > settings.largest_thing_m).collect();
+    let room_sites = mark_sites(&sites, &planes, &is_large);
+    let candidates = footings(&sites, settings, &planes, &room_sites, readings.viewpoint.as_ref());
+    let Some((chosen, footing)) = choose(&candidates, organized, settings, readings.viewpoint.is_some())? else {
+        return Ok(no_plane(organized, settings));
+    };
+    let plane = refit(readings, &sites, &planes[chosen], &footing.plane);
+    refuse_from_below(readings, &footing, &planes[chosen])?;
+    let is_ground = footing.free_cells as f64 >= MIN_FREE_SHARE * footing.ground_cells as f64;
+    let room = (0..planes.len()).filter(|&p| p != chosen && is_large[p]).map(|p| planes[p].plane).collect();
+    Ok(Ground { up: plane.normal, support: is_ground.then_some(plane), room, warnings: vec![] })
+}
+
+fn scene_planes(sites: &Sites, settings: &PerceptionSettings) -> Vec<SitePlane> {
+    let search = PlaneSearch {
+        sites,
+        settings,
+        reach_m: SCENE_REACH_M,
+        worth: vec![1.0; sites.len()],
+        min_worth: (MIN_SCENE_PLANE_M2 / sites.voxels.size_m.powi(2)).max(6.0),
+        max_planes: MAX_SCENE_PLANES,
+        seed: 1,
+    };
+    search.run()
+}
+
+fn longest_side(sites: &Sites, plane: &SitePlane) -> f64 {
+    let frame = PlaneFrame::new(&plane.plane, &sites.centers[plane.sites[0] as usize]);
+    let footprint: Vec<_> = plane.sites.iter().map(|&s| frame.to_plane(&sites.centers[s as usize])).collect();
+    minimum_rectangle(&footprint).map_or(0.0, |r| r.size()[0].max(r.size()[1]))
+}
+
+fn mark_sites(sites: &Sites, planes: &[SitePlane], wanted: &[bool]) -> Vec<bool> {
+    let mut marked = vec![false; sites.len()];
+    for plane in planes.iter().zip(wanted).filter(|(_, &w)| w).map(|(p, _)| p) {
+        plane.sites.iter().for_each(|&s| marked[s as usize] = true);
+    }
+    marked
+}
+
+/// Every plane with every upward direction that is possible: towards the viewpoint, within reach of a given `up`, else both.
+fn footings(
+    sites: &Sites,
+    settings: &PerceptionSettings,
+    planes: &[SitePlane],
+    room_sites: &[bool],
+    viewpoint: Option<&Vec3>,
+) -> Vec<(usize, Footing)> {
+    let mut all = Vec::new();
+    for (index, found) in planes.iter().enumerate() {
+        for plane in [found.plane, found.plane.flipped()] {
+            let seen = viewpoint.is_none_or(|v| plane.height_of(v) > 0.0);
+            let wanted = match settings.up {
+                Some(up) => plane.normal.dot(&up.normalize()) >= settings.up_tolerance_rad.cos(),
+                None => seen,
+            };
+            if wanted {
+                all.push((index, footing(sites, settings, plane, &found.sites, room_sites)));
+            }
+        }
+    }
+    all
+}
+
+/// The best of the planes on which things stand; where nothing stands on any, the one plane that is largest.
+fn choose(
+    candidates: &[(usize, Footing)],
+    organized: bool,
+    settings: &PerceptionSettings,
+    has_viewpoint: bool,
+) -> Result<Option<(usize, Footing)>> {
+    let most = candidates.iter().map(|(_, f)| f.standing).fold(0.0, f64::max);
+    let bears = |f: &Footing| f.standing >= MIN_STANDING_SHARE * most;
+    let worth = |f: &Footing| f.ground_cells as f64 * prior(f, organized) * (0.3 + f.upright_share);
+    if most >= MIN_STANDING {
+        let bearing = candidates.iter().filter(|(_, f)| bears(f));
+        return Ok(best_by(bearing, worth).cloned());
+    }
+    let side = |f: &Footing| if has_viewpoint || settings.up.is_some() { 1.0 } else { side_worth(f) };
+    let bare = |f: &Footing| f.ground_cells as f64 * prior(f, organized) * side(f);
+    let Some(best) = best_by(candidates.iter(), bare) else { return Ok(None) };
+    if settings.up.is_none() && !organized {
+        refuse_rivals(candidates, best)?;
+    }
+    Ok(Some(best.clone()))
+}
+
+fn best_by<'a>(
+    candidates: impl Iterator<Item = &'a (usize, Footing)>,
+    worth: impl Fn(&Footing) -> f64,
+) -> Option<&'a (usize, Footing)> {
+    candidates.fold(None, |best: Option<&(usize, Footing)>, c| match best {
+        Some(b) if worth(&b.1) >= worth(&c.1) => Some(b),
+        _ => Some(c),
+    })
+}
+
+/// A camera seldom hangs upside down: in its image (y down) a floor's normal does not point down. A wall's does where the
+/// camera looks down on the scene.
+fn prior(footing: &Footing, organized: bool) -> f64 {
+    if organized && footing.plane.normal.y > 0.1 {
+        UPSIDE_DOWN_PRIOR
+    } else {
+        1.0
+    }
+}
+
+/// Which side of a bare plane is up, without a viewpoint: where things are, else the origin's, else the side of +z.
+fn side_worth(footing: &Footing) -> f64 {
+    let things = (footing.above as f64 - footing.below as f64) / footing.ground_cells.max(1) as f64;
+    let origin_m = -footing.plane.distance;
+    if things.abs() > 0.05 {
+        1.0 + things.signum() * 0.9
+    } else if origin_m.abs() > CLEARLY_OFF_M {
+        1.0 + origin_m.signum() * 0.9
+    } else {
+        1.0 + footing.plane.normal.z * 0.9
+    }
+}
+
+fn refuse_rivals(candidates: &[(usize, Footing)], best: &(usize, Footing)) -> Result<()> {
+    let is_rival = |(index, f): &&(usize, Footing)| {
+        let leans = f.plane.normal.dot(&best.1.plane.normal).abs() < 0.9;
+        *index != best.0 && leans && f.ground_cells as f64 > RIVAL_SHARE * best.1.ground_cells as f64
+    };
+    if candidates.iter().any(|c| is_rival(&c) && best.1.plane.normal.z < 0.9) {
+        return Err(InputError::new("several planes could be the support and nothing stands on any of them")
+            .mend("name the direction away from the support with --up x,y,z"));
+    }
+    Ok(())
+}
+
+/// Least squares over the readings near the plane, not whole cells.
+fn refit(readings: &Readings, sites: &Sites, found: &SitePlane, oriented: &Plane) -> Plane {
+    let mut plane = *oriented;
+    for _ in 0..2 {
+        let mut moments = Moments::default();
+        for &s in &found.sites {
+            for &i in sites.voxels.members_of(s as usize) {
+                let p = readings.point(i);
+                if plane.height_of(&p).abs() <= readings.tolerance_m(&p) {
+                    moments.add_point(&p);
+                }
+            }
+        }
+        if let Some((fitted, _)) = moments.fit_plane() {
+            plane = if fitted.normal.dot(&plane.normal) < 0.0 { fitted.flipped() } else { fitted };
+        }
+    }
+    plane
+}
+
+/// Refuses a support that the sensor would have had to see through: more lies behind its readings than before them.
+fn refuse_from_below(readings: &Readings, footing: &Footing, found: &SitePlane) -> Result<()> {
+    let Some(viewpoint) = readings.viewpoint else { return Ok(()) };
+    if footing.plane.height_of(&viewpoint) > 0.0 && footing.below <= footing.above.max(found.sites.len() / 4) {
+        return Ok(());
+    }
+    Err(InputError::new("the support plane's visible face looks away from the viewpoint")
+        .mend("if the cloud has y up and z backwards, say --frame opengl"))
+}
+
+/// Up where the cloud has no plane at all: as told, else as such a cloud is usually held, with a warning.
+fn no_plane(organized: bool, settings: &PerceptionSettings) -> Ground {
+    let (up, name) = match (settings.up, organized) {
+        (Some(up), _) => (up.normalize(), "as given"),
+        (None, true) => (-Vec3::y(), "-y, an upright camera's"),
+        (None, false) => (Vec3::z(), "+z"),
+    };
+    let warnings = vec![format!("no plane to stand on was found; up is {name}")];
+    Ground { up, support: None, room: vec![], warnings }
+}
