@@ -22,8 +22,8 @@ pub struct Footing {
     pub free_cells: usize,
     /// Cells of things that stand on it, each thing counted by the share of ground around it.
     pub standing: f64,
-    /// Share of the standing things' surfaces that is upright.
-    pub upright_share: f64,
+    /// Share of the surfaces of things that touch it that is upright; `None` where no thing does.
+    pub upright_share: Option<f64>,
     /// Cells above and below that lie over the ground.
     pub above: usize,
     pub below: usize,
@@ -47,7 +47,7 @@ pub fn footing(sites: &Sites, settings: &PerceptionSettings, plane: Plane, on: &
         ground_cells: ground.len(),
         free_cells: 0,
         standing: 0.0,
-        upright_share: 0.0,
+        upright_share: None,
         above: (0..sites.len()).filter(|&s| is_above(s) && over_ground(s)).count(),
         below: (0..sites.len()).filter(|&s| height[s] < -2.0 * sites.tolerance_m[s] && over_ground(s)).count(),
     };
@@ -62,12 +62,12 @@ pub fn footing(sites: &Sites, settings: &PerceptionSettings, plane: Plane, on: &
         let share = ring_share(&footprint, cell_m, &ground);
         if share >= MIN_RING_SHARE {
             footing.standing += share * thing.len() as f64;
-            let normals = thing.iter().map(|&s| sites.normals[s]).filter(|n| *n != Vec3::zeros());
-            oriented += normals.clone().count();
-            upright += normals.filter(|n| n.dot(&plane.normal).abs() < UPRIGHT_SINE).count();
         }
+        let normals = thing.iter().map(|&s| sites.normals[s]).filter(|n| *n != Vec3::zeros());
+        oriented += normals.clone().count();
+        upright += normals.filter(|n| n.dot(&plane.normal).abs() < UPRIGHT_SINE).count();
     }
-    footing.upright_share = if oriented > 0 { upright as f64 / oriented as f64 } else { 0.0 };
+    footing.upright_share = (oriented > 0).then(|| upright as f64 / oriented as f64);
     footing.free_cells = free_cells(&ground, &outlines, cell_m);
     footing
 }

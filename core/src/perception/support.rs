@@ -24,8 +24,10 @@ const MIN_STANDING_SHARE: f64 = 0.4;
 const MIN_STANDING: f64 = 8.0;
 /// Worth of a plane that would mean the camera hangs upside down.
 const UPSIDE_DOWN_PRIOR: f64 = 0.35;
-/// Two planes with no thing on them are both plausible where the lesser has this share of the larger one's area.
+/// Two planes with no thing on them are both plausible where the lesser has this share of the other's worth.
 const RIVAL_SHARE: f64 = 0.5;
+/// How strongly upright surroundings speak for a plane on which nothing stands.
+const CONTAINER_POWER: i32 = 4;
 /// The origin tells the side of a plane from this distance, metres.
 const CLEARLY_OFF_M: f64 = 0.2;
 
@@ -125,16 +127,18 @@ fn choose(
 ) -> Result<Option<(usize, Footing)>> {
     let most = candidates.iter().map(|(_, f)| f.standing).fold(0.0, f64::max);
     let bears = |f: &Footing| f.standing >= MIN_STANDING_SHARE * most;
-    let worth = |f: &Footing| f.ground_cells as f64 * prior(f, organized) * (0.3 + f.upright_share);
+    let worth = |f: &Footing| f.ground_cells as f64 * prior(f, organized) * (0.3 + f.upright_share.unwrap_or(0.0));
     if most >= MIN_STANDING {
         let bearing = candidates.iter().filter(|(_, f)| bears(f));
         return Ok(best_by(bearing, worth).cloned());
     }
     let side = |f: &Footing| if has_viewpoint || settings.up.is_some() { 1.0 } else { side_worth(f) };
-    let bare = |f: &Footing| f.ground_cells as f64 * prior(f, organized) * side(f);
+    // Around a container's base every wall is upright; around one of its walls the opposite wall is not.
+    let upright = |f: &Footing| f.upright_share.map_or(1.0, |share| share.powi(CONTAINER_POWER));
+    let bare = |f: &Footing| f.ground_cells as f64 * prior(f, organized) * side(f) * upright(f);
     let Some(best) = best_by(candidates.iter(), bare) else { return Ok(None) };
     if settings.up.is_none() && !organized {
-        refuse_rivals(candidates, best)?;
+        refuse_rivals(candidates, best, bare)?;
     }
     Ok(Some(best.clone()))
 }
@@ -172,10 +176,14 @@ fn side_worth(footing: &Footing) -> f64 {
     }
 }
 
-fn refuse_rivals(candidates: &[(usize, Footing)], best: &(usize, Footing)) -> Result<()> {
+fn refuse_rivals(
+    candidates: &[(usize, Footing)],
+    best: &(usize, Footing),
+    worth: impl Fn(&Footing) -> f64,
+) -> Result<()> {
     let is_rival = |(index, f): &&(usize, Footing)| {
         let leans = f.plane.normal.dot(&best.1.plane.normal).abs() < 0.9;
-        *index != best.0 && leans && f.ground_cells as f64 > RIVAL_SHARE * best.1.ground_cells as f64
+        *index != best.0 && leans && worth(f) > RIVAL_SHARE * worth(&best.1)
     };
     if candidates.iter().any(|c| is_rival(&c) && best.1.plane.normal.z < 0.9) {
         return Err(InputError::new("several planes could be the support and nothing stands on any of them")

@@ -1,0 +1,71 @@
+"""The compiled core: one flat module, one section for each of its binding files."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+# --- perception ---
+
+class Perception:
+    """Planar segments of a cloud and the support they stand on, as `boxwright.perception.perceive` returns them.
+
+    S segments, N points; metres; every coordinate in the input's frame.
+    """
+
+    @property
+    def up(self) -> NDArray[np.float64]:
+        """(3,) unit vector away from the support."""
+
+    @property
+    def support_plane(self) -> tuple[NDArray[np.float64], float] | None:
+        """Normal (3,) along `up` and distance (normal . p) in metres; None where the cloud shows no support."""
+
+    @property
+    def normals(self) -> NDArray[np.float64]:
+        """(S, 3) unit normals, looking at the viewpoint where the cloud has one; else their signs mean nothing."""
+
+    @property
+    def distances(self) -> NDArray[np.float64]:
+        """(S,) metres: normal . p of each segment's plane."""
+
+    @property
+    def rectangles(self) -> NDArray[np.float64]:
+        """(S, 4, 3) metres: corners, going round, of the minimum bounding rectangle in each segment's plane."""
+
+    @property
+    def hulls(self) -> list[NDArray[np.float64]]:
+        """S arrays (H, 3), metres: corners, going round, of each segment's convex hull in its plane."""
+
+    @property
+    def rms(self) -> NDArray[np.float64]:
+        """(S,) metres: root mean square distance of a segment's points from its plane."""
+
+    @property
+    def point_counts(self) -> NDArray[np.int64]:
+        """(S,) number of points of each segment."""
+
+    @property
+    def groups(self) -> NDArray[np.int32]:
+        """(S,) number of the cluster that each segment belongs to, from 0, the largest first."""
+
+    @property
+    def labels(self) -> NDArray[np.int32]:
+        """(N,) segment of each input point, -1 for none."""
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a user should know about the answer, one line each."""
+
+    @property
+    def stage_seconds(self) -> dict[str, float]:
+        """Seconds of each stage, in order."""
+
+    def __len__(self) -> int: ...
+
+def perceive(
+    points: NDArray[np.float32],
+    width: int,
+    height: int,
+    viewpoint: tuple[float, float, float] | None = None,
+    up: tuple[float, float, float] | None = None,
+    **settings: float,
+) -> Perception: ...
