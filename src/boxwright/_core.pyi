@@ -1,7 +1,41 @@
 """The compiled core: one flat module, one section for each of its binding files."""
 
+import os
+from typing import Literal
+
 import numpy as np
 from numpy.typing import NDArray
+
+# --- cloud ---
+
+class CloudArrays:
+    """What a reader found: metres, input's frame; `points` (N, 3), `colors` (N, 3), `labels` (N,)."""
+
+    points: NDArray[np.float32]
+    width: int
+    height: int
+    viewpoint: tuple[float, float, float] | None
+    colors: NDArray[np.uint8] | None
+    labels: NDArray[np.uint32] | None
+
+def read_cloud(
+    path: str | os.PathLike[str],
+    format: str,
+    unit: Literal["m", "mm"],
+    frame: Literal["optical", "opengl"],
+    viewpoint: tuple[float, float, float] | None,
+) -> CloudArrays: ...
+def read_depth_png(
+    path: str | os.PathLike[str],
+    camera: tuple[float, float, float, float],
+    size: tuple[int, int] | None,
+    distortion: tuple[float, float, float, float, float],
+    depth_unit_m: float,
+    depth_decode: Literal["none", "rotate3"],
+    unit: Literal["m", "mm"],
+    frame: Literal["optical", "opengl"],
+    viewpoint: tuple[float, float, float] | None,
+) -> CloudArrays: ...
 
 # --- perception ---
 

@@ -2,6 +2,32 @@
 
 use crate::geometry::Vec3;
 
+mod depth;
+mod depth_png;
+mod distortion;
+mod fields;
+mod guards;
+mod lines;
+mod lzf;
+mod npy;
+mod npy_header;
+mod options;
+mod parsed;
+mod pcd;
+mod pcd_header;
+mod ply;
+mod ply_header;
+mod ply_walk;
+mod read;
+mod records;
+mod scalar;
+mod text_rows;
+
+pub use depth::{DepthDecode, Intrinsics};
+pub use distortion::Distortion;
+pub use options::{Format, Frame, ReadOptions, Unit};
+pub use read::{read_cloud, read_depth_png};
+
 /// A cloud as it was read: the input's own frame, metres; a point with any non-finite coordinate is no reading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cloud {

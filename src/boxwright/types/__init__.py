@@ -2,6 +2,7 @@
 
 from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, PartState, Pose
 from boxwright.types.cloud import Cloud
+from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.model import Inference, Model, Object, Seconds, Source, SupportPlane
 from boxwright.types.truth import Camera, TrueBox, TruePart, Truth
 
@@ -9,6 +10,7 @@ __all__ = [
     "Camera",
     "Cloud",
     "Inference",
+    "Intrinsics",
     "Joint",
     "JointSigma",
     "Model",
