@@ -1,1 +1,7 @@
-"""Simulated scenes and sensor. Imports neither perception nor inference, nor they it."""
+"""Simulated frames of open boxes with exact truth. Imports nothing of perception, inference or models."""
+
+from boxwright.simulation.drawing import CATEGORIES, NONE
+from boxwright.simulation.frames import Frame, make_frame
+from boxwright.simulation.sets import write_frame, write_set
+
+__all__ = ["CATEGORIES", "NONE", "Frame", "make_frame", "write_frame", "write_set"]

@@ -1,0 +1,35 @@
+"""Draws a whole scene from a random generator."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from boxwright.simulation.arrangement import arrange_boxes, arrange_clutter
+from boxwright.simulation.empty import draw_decoys
+from boxwright.simulation.kinds import KINDS
+from boxwright.simulation.scene import Scene
+from boxwright.simulation.surroundings import draw_support, draw_walls
+from boxwright.simulation.views import draw_view
+from boxwright.types import Camera
+
+CATEGORIES = tuple(KINDS)
+"""The six that hold open boxes."""
+NONE = "none"
+"""Frames without an open box."""
+BOX_COUNTS = (0.72, 0.2, 0.08)
+"""How often a frame holds one, two, three boxes where the number is not given."""
+
+
+def draw_scene(rng: np.random.Generator, category: str, camera: Camera, boxes: int | None, *, clutter: bool) -> Scene:
+    """A scene of a category, with `boxes` open boxes (drawn where None)."""
+    count = 0 if category == NONE else boxes if boxes is not None else 1 + int(rng.choice(3, p=BOX_COUNTS))
+    placed, bodies = arrange_boxes(rng, category, count)
+    if not placed:
+        bodies = draw_decoys(rng)
+    content = np.concatenate([box.triangles_world() for box in placed] + [body.triangles for body in bodies]).reshape(-1, 3)
+    extent_m = 2 * float(np.abs(content[:, :2]).max()) + 0.1
+    support = draw_support(rng, extent_m)
+    camera_from_world, heading = draw_view(rng, category, content, camera)
+    walls = draw_walls(rng, support, heading, extent_m / 2 + float(rng.uniform(0.15, 1.2)))
+    things = arrange_clutter(rng, placed, bodies + walls, support.reach_m) if clutter else []
+    return Scene(category, tuple(placed), (*support.bodies, *bodies, *walls, *things), camera_from_world)

@@ -1,0 +1,218 @@
+"""The kinds of boxes, by category: each draws one box. Sizes in metres.
+
+Styles follow the FEFCO code where it has them: 0201 regular slotted (rsc), 0202 and 0203 overlapping flaps, 0200 half slotted,
+0209 short flaps (gap), 0215 and 0470s tuck and lid boxes. Board: single-wall corrugated is 1.5-5 mm (flutes E to A), double-wall 6-7 mm,
+cake board 0.6-1.6 mm and pizza boxes E or B flute, 1.5-3 mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import msgspec
+import numpy as np
+
+from boxwright.simulation.boxes import Flap, OpenBox, Rgb, Tuck
+
+Rng = np.random.Generator
+Draw = Callable[[Rng, str, str], OpenBox]
+Flaps = tuple[Flap | None, Flap | None, Flap | None, Flap | None]
+
+BROWNS: tuple[Rgb, ...] = ((196, 150, 98), (181, 136, 90), (208, 166, 115), (160, 120, 80))
+WHITES: tuple[Rgb, ...] = ((236, 234, 228), (222, 214, 200), (240, 205, 210), (196, 150, 98))
+
+SIZES_M: dict[str, tuple[tuple[float, float], tuple[float, float], tuple[float, float]]] = {
+    "small": ((0.17, 0.27), (0.12, 0.20), (0.08, 0.18)),
+    "medium": ((0.28, 0.42), (0.22, 0.32), (0.17, 0.28)),
+    "large": ((0.44, 0.62), (0.32, 0.44), (0.26, 0.42)),
+    "carton": ((0.20, 0.33), (0.16, 0.26), (0.28, 0.45)),
+    "cake": ((0.20, 0.32), (0.18, 0.30), (0.10, 0.20)),
+    "pizza": ((0.26, 0.42), (0.26, 0.42), (0.035, 0.06)),
+}
+BOARDS_M = {"cake": (0.001, 0.002), "pizza": (0.0015, 0.003), "small": (0.003, 0.005)}
+CORRUGATED_M = (0.003, 0.007)
+
+
+def _between(rng: Rng, span: tuple[float, float]) -> float:
+    return float(rng.uniform(*span))
+
+
+def _angle_rad(rng: Rng) -> float:
+    """From nearly closed to hanging below the rim."""
+    spans = ((10.0, 60.0), (60.0, 130.0), (130.0, 190.0), (190.0, 237.0))
+    return float(np.radians(_between(rng, spans[rng.choice(4, p=(0.17, 0.35, 0.26, 0.22))])))
+
+
+def _bend_rad(rng: Rng) -> float:
+    return float(np.radians(rng.choice((0.0, rng.normal(0, 4.0), rng.uniform(-18, 18)), p=(0.25, 0.6, 0.15))))
+
+
+def _flap(rng: Rng, board_m: float, length_m: float, taper_m: float = 0.0, tuck: Tuck | None = None) -> Flap:
+    """A flap of a length, at any angle; a lid that ends in a tuck is stiffer."""
+    inset_m = board_m / 2 + float(rng.uniform(0.0008, 0.003))
+    uneven = rng.uniform(0.6, 1.0, 2) * taper_m
+    bend_rad = _bend_rad(rng) / (3.0 if tuck else 1.0)
+    return Flap(length_m, _angle_rad(rng), inset_m, bend_rad, float(uneven[0]), float(uneven[1]), tuck)
+
+
+def _tuck(rng: Rng, length_m: float) -> Tuck:
+    return Tuck(length_m, float(np.radians(rng.uniform(-90, 105))), taper_m=length_m * float(rng.uniform(0.0, 0.4)))
+
+
+def _box(rng: Rng, category: str, variant: str, flaps: Callable[[float, float, float, float], Flaps]) -> OpenBox:
+    """Draws the body; `flaps` (length, width, height, board) draws what hangs on it."""
+    length, width, height = (_between(rng, span) for span in SIZES_M[category])
+    board = _between(rng, BOARDS_M.get(category, CORRUGATED_M))
+    soft = 0.006 if height > 0.08 else 0.002
+    bulges = rng.normal(0, soft / 2, 4).clip(-soft, soft) * (rng.random() < 0.7)
+    rack = float(np.radians(rng.normal(0, 2.0))) if rng.random() < 0.6 else 0.0
+    colors = WHITES if category in ("cake", "pizza") else BROWNS
+    color = colors[int(rng.integers(len(colors)))]
+    first, second, third, fourth = (float(b) for b in bulges)
+    return OpenBox(
+        category, variant, length, width, height, board, flaps(length, width, height, board), rack,
+        (first, second, third, fourth), color,
+    )  # fmt: skip
+
+
+def _four(rng: Rng, category: str, variant: str, share: tuple[float, float], taper: float = 0.0) -> OpenBox:
+    """Four flaps of one length, a share of the width."""
+
+    def flaps(_l: float, width: float, _h: float, board: float) -> Flaps:
+        reach = width * _between(rng, share) - board
+        first, second, third, fourth = (_flap(rng, board, reach, taper * reach * rng.random()) for _ in range(4))
+        return first, second, third, fourth
+
+    return _torn(rng, _box(rng, category, variant, flaps), 0.06)
+
+
+def _torn(rng: Rng, box: OpenBox, chance: float) -> OpenBox:
+    """Now and then a flap is torn off, another shortened; all four never."""
+    flaps = list(box.flaps)
+    for k in range(4):
+        flap = flaps[k]
+        if flap is None or rng.random() > chance or sum(f is not None for f in flaps) < 2:
+            continue
+        flaps[k] = None
+    first, second, third, fourth = flaps
+    return msgspec.structs.replace(box, flaps=(first, second, third, fourth))
+
+
+def rsc(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Flaps that meet in the middle."""
+    return _four(rng, category, variant, (0.5, 0.5), taper=0.06)
+
+
+def overlap(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Flaps that overlap by a part of the width, up to the whole of it."""
+    return _four(rng, category, variant, (0.62, 0.95))
+
+
+def gap(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Flaps that leave the middle open."""
+    return _four(rng, category, variant, (0.28, 0.42), taper=0.3)
+
+
+def two_flaps(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Flaps on one pair of opposite sides."""
+    first = int(rng.integers(2))
+
+    def flaps(_l: float, width: float, _h: float, board: float) -> Flaps:
+        reach = width / 2 - board
+        pair = [None if k % 2 != first else _flap(rng, board, reach) for k in range(4)]
+        return pair[0], pair[1], pair[2], pair[3]
+
+    return _box(rng, category, variant, flaps)
+
+
+def half_slotted(rng: Rng, category: str, variant: str) -> OpenBox:
+    """No flap at all at the top."""
+    return _box(rng, category, variant, lambda *_: (None, None, None, None))
+
+
+def uneven(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Four flaps, no two of one length, cut slanting."""
+
+    def flaps(_l: float, width: float, _h: float, board: float) -> Flaps:
+        reaches = rng.uniform(0.25, 0.75, 4) * width
+        a, b, c, d = (_flap(rng, board, float(reach), 0.35 * float(reach) * rng.random()) for reach in reaches)
+        return a, b, c, d
+
+    return _torn(rng, _box(rng, category, variant, flaps), 0.05)
+
+
+def _lid_box(
+    rng: Rng,
+    category: str,
+    variant: str,
+    *,
+    tuck: tuple[float, float] | None,
+    dust: tuple[float, float] | None,
+    dust_taper: float,
+    front: tuple[float, float] | None,
+) -> OpenBox:
+    """A lid on one side, of the box's whole depth there; tuck on the lid, flaps on its neighbours and on the front, metres."""
+    lid_side = int(rng.integers(4))
+
+    def flaps(length: float, width: float, _h: float, board: float) -> Flaps:
+        depth, breadth = (width, length) if lid_side % 2 == 0 else (length, width)
+        made: list[Flap | None] = [None] * 4
+        lid_tuck = _tuck(rng, _between(rng, tuck)) if tuck else None
+        made[lid_side] = _flap(rng, board, depth - board, 0.0, lid_tuck)
+        if dust:
+            reach = min(_between(rng, dust), 0.48 * breadth)
+            made[(lid_side + 1) % 4] = _flap(rng, board, reach, dust_taper * reach)
+            made[(lid_side + 3) % 4] = _flap(rng, board, reach, dust_taper * reach)
+        if front:
+            made[(lid_side + 2) % 4] = _flap(rng, board, _between(rng, front))
+        return made[0], made[1], made[2], made[3]
+
+    return _torn(rng, _box(rng, category, variant, flaps), 0.06)
+
+
+def tuck_top(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Lid with a tuck, dust flaps beside it, nothing on the front."""
+    return _lid_box(rng, category, variant, tuck=(0.025, 0.06), dust=(0.05, 0.12), dust_taper=0.3, front=None)
+
+
+def lid(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Lid with a tuck and three short flaps."""
+    return _lid_box(rng, category, variant, tuck=(0.02, 0.08), dust=(0.05, 0.10), dust_taper=0.1, front=(0.04, 0.10))
+
+
+def plain_lid(rng: Rng, category: str, variant: str) -> OpenBox:
+    """A lid alone."""
+    return _lid_box(rng, category, variant, tuck=None, dust=None, dust_taper=0.0, front=None)
+
+
+def pizza(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Lid with a front tuck, small flaps on the sides, a small flap on the front."""
+    return _lid_box(rng, category, variant, tuck=(0.025, 0.045), dust=(0.025, 0.05), dust_taper=0.3, front=(0.03, 0.06))
+
+
+def pizza_wings(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Lid with a front tuck and small flaps on the sides."""
+    return _lid_box(rng, category, variant, tuck=(0.025, 0.045), dust=(0.025, 0.05), dust_taper=0.5, front=None)
+
+
+def pizza_tuck(rng: Rng, category: str, variant: str) -> OpenBox:
+    """Lid with a front tuck and nothing else."""
+    return _lid_box(rng, category, variant, tuck=(0.025, 0.05), dust=None, dust_taper=0.0, front=None)
+
+
+KINDS: dict[str, dict[str, Draw]] = {
+    "small": {"rsc": rsc, "overlap": overlap, "gap": gap, "mailer": tuck_top},
+    "medium": {"rsc": rsc, "overlap": overlap, "two_flaps": two_flaps, "half_slotted": half_slotted},
+    "large": {"rsc": rsc, "overlap": overlap, "two_flaps": two_flaps, "gap": gap},
+    "carton": {"uneven": uneven, "tuck_top": tuck_top, "tall_rsc": rsc},
+    "cake": {"lid": lid, "tuck": tuck_top, "plain_lid": plain_lid},
+    "pizza": {"pizza": pizza, "wings": pizza_wings, "tuck": pizza_tuck, "plain_lid": plain_lid},
+}
+"""Kinds by category and variant name."""
+
+
+def draw_box(rng: Rng, category: str, variant: str | None = None) -> OpenBox:
+    """A box of a category, of the variant if one is named, before its flaps are freed from one another."""
+    kinds = KINDS[category]
+    name = variant or list(kinds)[int(rng.integers(len(kinds)))]
+    return kinds[name](rng, category, name)
