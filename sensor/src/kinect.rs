@@ -86,7 +86,7 @@ impl Kinect {
                 self.min_depth_m, self.max_depth_m
             )));
         }
-        if !(self.grazing_from_deg < self.grazing_all_deg) {
+        if self.grazing_from_deg.partial_cmp(&self.grazing_all_deg) != Some(std::cmp::Ordering::Less) {
             return Err(SensorError::new("grazing_from_deg must lie below grazing_all_deg"));
         }
         Ok(())

@@ -103,3 +103,28 @@ def perceive(
     up: tuple[float, float, float] | None = None,
     **settings: float,
 ) -> Perception: ...
+
+# --- sensor ---
+
+def kinect_camera() -> tuple[float, float, float, float, int, int]:
+    """Intrinsics of the default camera: fx, fy, cx, cy (pixels), width, height."""
+
+def simulate_depth(
+    triangles: NDArray[np.float64],
+    surface_ids: NDArray[np.int32],
+    surface_rgb: NDArray[np.uint8],
+    seed: int,
+    camera: tuple[float, float, float, float, int, int] | None = None,
+) -> tuple[NDArray[np.float32], NDArray[np.int32], NDArray[np.uint8]]:
+    """A frame of the simulated Kinect: points (H*W, 3) metres with NaN for none, surface ids (H*W,), colours (H*W, 3).
+
+    `triangles` (T, 3, 3) metres, optical frame; id and colour for each triangle; `camera` as of `kinect_camera`, the
+    default where None. Id 0 marks no reading and flying pixels. Same arguments, same bits, on any number of threads.
+
+    Raises ValueError for shapes, coordinates or intrinsics that do not fit.
+    """
+
+def close_surface_groups(
+    triangles: NDArray[np.float64], groups: NDArray[np.int32], gap_m: float
+) -> list[tuple[int, int]]:
+    """Pairs of groups (smaller first) whose triangles (T, 3, 3) cross or come nearer than `gap_m`; `groups` (T,)."""

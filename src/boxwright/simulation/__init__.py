@@ -2,6 +2,6 @@
 
 from boxwright.simulation.drawing import CATEGORIES, NONE
 from boxwright.simulation.frames import Frame, make_frame
-from boxwright.simulation.sets import write_frame, write_set
+from boxwright.simulation.sets import write_frame, write_frames, write_set
 
-__all__ = ["CATEGORIES", "NONE", "Frame", "make_frame", "write_frame", "write_set"]
+__all__ = ["CATEGORIES", "NONE", "Frame", "make_frame", "write_frame", "write_frames", "write_set"]

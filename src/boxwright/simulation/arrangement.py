@@ -46,7 +46,9 @@ def _freed_box(rng: Rng, category: str, *, is_tilted: bool) -> tuple[PlacedBox, 
         placed = place(freed, world_from_box)
         if is_clear_of(placed.triangles_world(), [one.triangles for one in book], 0.0002):
             return placed, book
-    raise RuntimeError(f"no {category} box whose boards keep clear of each other in {TRIES} draws; a fault of the kinds' sizes")
+    raise RuntimeError(
+        f"no {category} box whose boards keep clear of each other in {TRIES} draws; a fault of the kinds' sizes"
+    )
 
 
 def _tilt(rng: Rng, box: OpenBox) -> tuple[Array, list[Body]]:
@@ -87,7 +89,9 @@ def arrange_clutter(rng: Rng, boxes: list[PlacedBox], present: list[Body], reach
     """Things around, touching and inside the boxes; all within `reach_m` of the origin in x and y."""
     added: list[Body] = []
     for near in boxes:
-        spots = ["inside"] * int(rng.choice(3, p=(0.55, 0.3, 0.15))) + ["touching"] * int(rng.choice(3, p=(0.5, 0.35, 0.15)))
+        spots = ["inside"] * int(rng.choice(3, p=(0.55, 0.3, 0.15))) + ["touching"] * int(
+            rng.choice(3, p=(0.5, 0.35, 0.15))
+        )
         for spot in spots:
             added += _put(rng, spot, boxes, present + added, near, reach_m)
     for _ in range(int(rng.integers(0, 7))):
@@ -96,7 +100,12 @@ def arrange_clutter(rng: Rng, boxes: list[PlacedBox], present: list[Body], reach
 
 
 def _put(
-    rng: Rng, spot: str, boxes: list[PlacedBox], bodies: list[Body], near: PlacedBox | None, reach_m: tuple[float, float]
+    rng: Rng,
+    spot: str,
+    boxes: list[PlacedBox],
+    bodies: list[Body],
+    near: PlacedBox | None,
+    reach_m: tuple[float, float],
 ) -> list[Body]:
     """One thing, or none where none fits."""
     thing, color = draw_thing(rng)
@@ -107,7 +116,7 @@ def _put(
         elif spot == "touching" and near is not None:
             pose = _beside(rng, thing, [near.triangles_world()], 2 * THING_GAP_M)
         else:
-            pose = standing(*rng.uniform(-0.8, 0.8, 2), rng.uniform(0, 2 * np.pi))
+            pose = _around(rng)
         if pose is None:
             return []
         moved = apply(pose, thing)
@@ -115,6 +124,11 @@ def _put(
         if is_on_support and is_clear_of(moved, others, THING_GAP_M):
             return [Body(moved, color)]
     return []
+
+
+def _around(rng: Rng) -> Array:
+    x, y = rng.uniform(-0.8, 0.8, 2)
+    return standing(x, y, rng.uniform(0, 2 * np.pi))
 
 
 def _inside(rng: Rng, placed: PlacedBox, thing: Array) -> Array | None:

@@ -35,7 +35,7 @@ class Flap(msgspec.Struct, frozen=True):
 
 
 class OpenBox(msgspec.Struct, frozen=True):
-    """Length and width between mid-surfaces, height from underside to rim; flap k on side k, None where there is none."""
+    """Length and width between mid-surfaces, height from underside to rim; flap k on side k, None if there is none."""
 
     category: str
     variant: str

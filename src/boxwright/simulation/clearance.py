@@ -46,7 +46,7 @@ def _are_folded(a: Panel, b: Panel) -> bool:
 
 
 def free_flaps(rng: np.random.Generator, box: OpenBox, world_from_box: Array) -> OpenBox | None:
-    """The box with flaps moved until no board crosses another or the support, z = 0 of the world; None if none was found."""
+    """The box with flaps moved until no board crosses another or the support (world z = 0); None if that failed."""
     for _ in range(REPAIRS):
         panels = build_panels(box)
         sunk = [panel for panel in panels if panel.parent is not None and _lowest_m(panel, world_from_box) < 0.001]

@@ -24,7 +24,9 @@ def mug(rng: Rng) -> Array:
     bar = cuboid((0.030, 0.010, 0.010))
     grip = cuboid((0.010, 0.010, 0.45 * height))
     parts = [translation([reach + 0.010, 0, z * height]) for z in (0.25, 0.62)]
-    return np.concatenate([body, *(apply(p, bar) for p in parts), apply(translation([reach + 0.022, 0, 0.25 * height]), grip)])
+    return np.concatenate(
+        [body, *(apply(p, bar) for p in parts), apply(translation([reach + 0.022, 0, 0.25 * height]), grip)]
+    )
 
 
 def bottle(rng: Rng) -> Array:
@@ -39,7 +41,16 @@ def bottle(rng: Rng) -> Array:
 
 def can(rng: Rng) -> Array:
     radius, height = rng.uniform(0.026, 0.05), rng.uniform(0.06, 0.14)
-    return revolve([(0, 0), (radius, 0), (radius, height), (0.92 * radius, height), (0.9 * radius, height - 0.004), (0, height - 0.004)])
+    return revolve(
+        [
+            (0, 0),
+            (radius, 0),
+            (radius, height),
+            (0.92 * radius, height),
+            (0.9 * radius, height - 0.004),
+            (0, height - 0.004),
+        ]
+    )
 
 
 def ball(rng: Rng) -> Array:
@@ -77,15 +88,18 @@ def toy(rng: Rng) -> Array:
     """A body, a head and limbs of balls."""
     size = rng.uniform(0.025, 0.06)
     places = [(0, 0, 0, 1.0), (0, 0, 1.5, 0.7), (0.9, 0.3, 0.0, 0.45), (-0.8, 0.5, 0.2, 0.45), (0.2, -0.9, 0.6, 0.4)]
-    return np.concatenate([apply(translation(size * np.array([x, y, z])), sphere(size * r, 7)) for x, y, z, r in places])
+    return np.concatenate(
+        [apply(translation(size * np.array([x, y, z])), sphere(size * r, 7)) for x, y, z, r in places]
+    )
 
 
 def blocks(rng: Rng) -> Array:
     """Toy bricks on one another."""
     size = rng.uniform(0.03, 0.06)
-    return np.concatenate(
-        [apply(standing(*rng.uniform(-0.2, 0.2, 2) * size, rng.uniform(0, 6), k * (size + 0.0003)), cuboid((size, size, size))) for k in range(3)]
-    )
+    brick = cuboid((size, size, size))
+    x, y = rng.uniform(-0.2, 0.2, (2, 3)) * size
+    yaw = rng.uniform(0, 2 * np.pi, 3)
+    return np.concatenate([apply(standing(x[k], y[k], yaw[k], k * (size + 0.0003)), brick) for k in range(3)])
 
 
 def tape(rng: Rng) -> Array:

@@ -26,7 +26,9 @@ def draw_scene(rng: np.random.Generator, category: str, camera: Camera, boxes: i
     placed, bodies = arrange_boxes(rng, category, count)
     if not placed:
         bodies = draw_decoys(rng)
-    content = np.concatenate([box.triangles_world() for box in placed] + [body.triangles for body in bodies]).reshape(-1, 3)
+    content = np.concatenate([box.triangles_world() for box in placed] + [body.triangles for body in bodies]).reshape(
+        -1, 3
+    )
     extent_m = 2 * float(np.abs(content[:, :2]).max()) + 0.1
     support = draw_support(rng, extent_m)
     camera_from_world, heading = draw_view(rng, category, content, camera)

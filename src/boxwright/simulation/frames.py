@@ -40,8 +40,8 @@ def make_frame(
 ) -> Frame:
     """Frame `index` of the endless sequence that `seed` names; frames do not depend on one another.
 
-    `category` is one of small, medium, large, carton, cake, pizza, or none for a frame without an open box; `boxes` is the
-    number of open boxes, drawn where None. Same arguments, same bits.
+    `category` is one of small, medium, large, carton, cake, pizza, or none for a frame without an open box; `boxes`
+    is the number of open boxes, drawn where None. Same arguments, same bits.
 
     Raises ValueError when the category is not known or the number of boxes is not 1, 2 or 3.
     """
@@ -70,7 +70,10 @@ def _check(category: str, seed: int, index: int, boxes: int | None) -> None:
 def render(scene: Scene, camera: Camera, seed: int, name: str) -> Frame:
     """What the camera reports of a scene, and the truth about it. Same arguments, same bits."""
     panels = [(index, placed, panel) for index, placed in enumerate(scene.boxes) for panel in placed.panels]
-    solids = [(apply(placed.world_from_box, panel.triangles), placed.box.color, k + 1) for k, (_, placed, panel) in enumerate(panels)]
+    solids = [
+        (apply(placed.world_from_box, panel.triangles), placed.box.color, k + 1)
+        for k, (_, placed, panel) in enumerate(panels)
+    ]
     solids += [(body.triangles, body.color, 0) for body in scene.bodies]
     sizes = [len(triangles) for triangles, _, _ in solids]
     triangles = apply(scene.camera_from_world, np.concatenate([triangles for triangles, _, _ in solids]))

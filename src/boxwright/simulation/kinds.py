@@ -1,8 +1,8 @@
 """The kinds of boxes, by category: each draws one box. Sizes in metres.
 
-Styles follow the FEFCO code where it has them: 0201 regular slotted (rsc), 0202 and 0203 overlapping flaps, 0200 half slotted,
-0209 short flaps (gap), 0215 and 0470s tuck and lid boxes. Board: single-wall corrugated is 1.5-5 mm (flutes E to A), double-wall 6-7 mm,
-cake board 0.6-1.6 mm and pizza boxes E or B flute, 1.5-3 mm.
+Styles follow the FEFCO code where it has them: 0201 regular slotted (rsc), 0202 and 0203 overlapping flaps, 0200 half
+slotted, 0209 short flaps (gap), 0215 and the 0400s for boxes with tucks and lids. Board: single-wall corrugated is
+1.5-5 mm (flutes E to A), double-wall 6-7 mm, cake boxes are of 1-2 mm, pizza boxes of E or B flute, 1.5-3 mm.
 """
 
 from __future__ import annotations
@@ -151,7 +151,7 @@ def _lid_box(
     dust_taper: float,
     front: tuple[float, float] | None,
 ) -> OpenBox:
-    """A lid on one side, of the box's whole depth there; tuck on the lid, flaps on its neighbours and on the front, metres."""
+    """A lid as deep as the box on one side, maybe with a tuck; flaps on its neighbours and on the front. Metres."""
     lid_side = int(rng.integers(4))
 
     def flaps(length: float, width: float, _h: float, board: float) -> Flaps:

@@ -107,7 +107,8 @@ def _tuck(box: OpenBox, k: int, flap: Flap, tuck: Tuck, hinge: Array, inward: Ar
 
 def _direction(inward: Array, angle_rad: Array | float) -> Array:
     angle = np.asarray(angle_rad)[..., None]
-    return np.cos(angle) * inward + np.sin(angle) * UP
+    direction: Array = np.cos(angle) * inward + np.sin(angle) * UP
+    return direction
 
 
 def _flat_corners(hinge: Array, inward: Array, length_m: float, angle_rad: float, taper: tuple[float, float]) -> Array:
@@ -117,7 +118,13 @@ def _flat_corners(hinge: Array, inward: Array, length_m: float, angle_rad: float
 
 
 def _strip(
-    hinge: Array, inward: Array, board_m: float, length_m: float, angle_rad: float, bend_rad: float, taper: tuple[float, float]
+    hinge: Array,
+    inward: Array,
+    board_m: float,
+    length_m: float,
+    angle_rad: float,
+    bend_rad: float,
+    taper: tuple[float, float],
 ) -> tuple[Array, Array]:
     """A board from a hinge edge, bent on a circle: its triangles, and its free edge (2, 3) at mid-board."""
     share = np.linspace(0, 1, (FLAP_CELLS if bend_rad else 1) + 1)

@@ -1,4 +1,4 @@
-"""What a frame looks at: boxes and other bodies in the world (z up, the support at z = 0), and where the camera stands."""
+"""What a frame looks at: boxes and other bodies in the world (z up, the support at z = 0), and the camera's pose."""
 
 from __future__ import annotations
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections import deque
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 from boxwright.io.clouds import write_pcd
@@ -24,11 +25,25 @@ def write_set(
     boxes: int | None = None,
     clutter: bool = True,
     start: int = 0,
-    on_frame: Callable[[Frame], None] = lambda _frame: None,
 ) -> list[str]:
-    """Write frames `start` .. `start + count` of a seed's sequence, the categories in turn; their names, in order.
+    """`write_frames` to its end; the names of the frames, in order."""
+    frames = write_frames(directory, count, seed, categories, boxes=boxes, clutter=clutter, start=start)
+    return [frame.truth.name for frame in frames]
 
-    A set can be made longer later: frame i is the same however many are asked for. `on_frame` is told of each in order.
+
+def write_frames(
+    directory: str | os.PathLike[str],
+    count: int,
+    seed: int,
+    categories: Sequence[str] = CATEGORIES,
+    *,
+    boxes: int | None = None,
+    clutter: bool = True,
+    start: int = 0,
+) -> Iterator[Frame]:
+    """Write frames `start` .. `start + count` of a seed's sequence, the categories in turn; yields each once written.
+
+    A set can be made longer later: frame i is the same however many are asked for.
 
     Raises ValueError for a category that is not known, OSError when a file cannot be written.
     """
@@ -40,12 +55,16 @@ def write_set(
         write_frame(folder, frame)
         return frame
 
-    names = []
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for frame in pool.map(make, range(start, start + count)):
-            names.append(frame.truth.name)
-            on_frame(frame)
-    return names
+    workers = os.cpu_count() or 1
+    with ThreadPoolExecutor(workers) as pool:
+        # A few frames ahead of the reader, not all: a frame holds 5 MB.
+        ahead: deque[Future[Frame]] = deque()
+        for index in range(start, start + count):
+            ahead.append(pool.submit(make, index))
+            if len(ahead) > 2 * workers:
+                yield ahead.popleft().result()
+        while ahead:
+            yield ahead.popleft().result()
 
 
 def write_frame(folder: Path, frame: Frame) -> None:

@@ -42,13 +42,15 @@ def _table(rng: Rng, extent_m: float, below_m: float) -> tuple[list[Body], tuple
     color = TABLE_COLORS[int(rng.integers(len(TABLE_COLORS)))]
     top = apply(translation([*offset, -0.03]), cuboid((*(2 * half), 0.03)))
     leg = cuboid((0.05, 0.05, below_m - 0.03))
-    legs = [apply(translation([*(offset + s * (half - 0.06)), -below_m]), leg) for s in ([1, 1], [1, -1], [-1, 1], [-1, -1])]
+    legs = [
+        apply(translation([*(offset + s * (half - 0.06)), -below_m]), leg) for s in ([1, 1], [1, -1], [-1, 1], [-1, -1])
+    ]
     reach = half - np.abs(offset)
     return [Body(part, color) for part in (top, *legs)], (float(reach[0]), float(reach[1]))
 
 
 def draw_walls(rng: Rng, support: Surroundings, away: float, distance_m: float) -> list[Body]:
-    """Now and then a wall `distance_m` behind the scene, `away` being the heading from the camera; sometimes a corner."""
+    """Now and then a wall `distance_m` behind the scene, `away` being the camera's heading; sometimes a corner."""
     if rng.random() > 0.35:
         return []
     floor_z = min(float(body.triangles[..., 2].min()) for body in support.bodies)

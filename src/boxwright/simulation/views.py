@@ -31,9 +31,9 @@ def look_at(target_m: Array, azimuth_rad: float, elevation_rad: float, distance_
 
 
 def draw_view(rng: Rng, category: str, content: Array, camera: Camera) -> tuple[Array, float]:
-    """camera_from_world, and the heading (rad, world) in which it looks; `content` (N, 3) is what should be in the frame.
+    """camera_from_world, and the heading (rad, world) in which it looks; `content` (N, 3) should be in the frame.
 
-    Elevations 20-90 degrees; one frame in nine looks straight down, at any roll; one in twelve is cut by the frame's edge.
+    Elevations 20-90 degrees; one frame in nine looks straight down, at any roll; one in twelve is cut by its edge.
     """
     azimuth = rng.uniform(0, 2 * np.pi)
     is_down = rng.random() < 0.11
