@@ -4,12 +4,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
 
-from boxwright.evaluation import BoxScore, FrameScore, summarize
+from boxwright.evaluation import (
+    Answer,
+    BoxScore,
+    FrameScore,
+    LabelledFrame,
+    load_evaluation,
+    make_evaluation,
+    save_evaluation,
+    score_set,
+    summarize,
+)
+from boxwright.io.labels import PointLabels
 from boxwright.types import Object
 from support.labelled_scenes import Scene, perfect_scene, with_names_rotated
 from support.random_models import Angles, BoxSpec, Flap
@@ -255,6 +267,32 @@ def test_a_box_without_flaps_in_the_cloud_has_no_flap_accuracy() -> None:
     assert (only(score).flap_accuracy, only(score).full_accuracy) == (None, 1.0)
     figures = summarize([score, scene_of().score()]).category("all")
     assert (figures.flap_accuracy_percent, figures.boxes) == (100.0, 2)
+
+
+def test_a_part_of_a_foreign_kind_is_wrong() -> None:
+    scene = scene_of()
+    parts = tuple(msgspec.structs.replace(p, name="lid") if p.name == "side_3" else p for p in scene.objects[0].parts)
+    joints = tuple(j for j in scene.objects[0].joints if j.parent != "side_3")
+    box = only(with_object(scene, parts=parts, joints=joints).score())
+    assert (box.panels_right, box.panels_wrong, box.missed) == (8, 1, ("side_3",))
+
+
+def test_a_set_is_scored_and_kept_as_a_file(tmp_path: Path) -> None:
+    scene = swapped(scene_of(), "flap_0", "flap_1")
+    frame = LabelledFrame(name="made_up", cloud_path=Path("made_up.pcd"), truth=scene.truth, labels=scene.truth_labels)
+    answer = Answer(objects=scene.objects, labels=PointLabels(scene.object_labels, scene.part_labels))
+    asked: list[Path] = []
+
+    def method(cloud_path: Path) -> Answer:
+        asked.append(cloud_path)
+        return answer
+
+    evaluation = make_evaluation("paper", "made_up", score_set([frame, frame], method))
+    assert asked == [Path("made_up.pcd")] * 2
+    assert evaluation.frames == (scene.score(),) * 2
+    assert evaluation.summary.category("all").flap_accuracy_percent == 0.0
+    save_evaluation(evaluation, tmp_path / "evaluation.json")
+    assert load_evaluation(tmp_path / "evaluation.json") == evaluation
 
 
 def test_results_are_files() -> None:

@@ -46,7 +46,7 @@ def test_a_wrong_model_names_file_and_key(tmp_path: Path, change: Callable[[Any]
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("text", [b"", b"{", b"\xff\xfe", b"[1, 2]", b"null"])
+@pytest.mark.parametrize("text", [b"", b"{", b"\xff\xfe", b"[1, 2]", b"null", b'{"later": ' + b"[" * 200_000])
 def test_what_is_no_model_is_refused(tmp_path: Path, text: bytes) -> None:
     (tmp_path / "model.json").write_bytes(text)
     with pytest.raises(ValueError, match=r"model\.json: "):
@@ -114,3 +114,21 @@ def test_shared_truths_are_read_and_survive_their_file(shared_dir: Path, tmp_pat
         save_truth(truth, tmp_path / "truth.json")
         assert load_truth(tmp_path / "truth.json") == truth
     assert len(paths) == 14
+
+
+def test_any_bytes_are_a_model_or_a_value_error(tmp_path: Path) -> None:
+    rng = np.random.default_rng(77)
+    whole = np.frombuffer(json.dumps(sample_model()).encode(), np.uint8)
+    path = tmp_path / "model.json"
+    refusals: list[str] = []
+    for _ in range(1000):
+        spoilt = whole.copy()
+        places = rng.integers(0, len(spoilt), int(rng.integers(1, 4)))
+        spoilt[places] = rng.integers(0, 256, len(places))
+        path.write_bytes(spoilt.tobytes())
+        try:
+            assert isinstance(load_model(path), Model)
+        except ValueError as error:
+            refusals.append(str(error))
+    assert 500 < len(refusals) < 1000
+    assert all(line.startswith(f"{path}: ") and "\n" not in line for line in refusals)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from boxwright.evaluation.assignment import assign
 from boxwright.evaluation.errors import dimension_errors, flap_error
 from boxwright.evaluation.overlap import Counts, Overlap, count_overlap
-from boxwright.evaluation.roles import FLAP, PANELS, TUCK, kind_of
+from boxwright.evaluation.roles import FLAP, TUCK, kind_of
 from boxwright.evaluation.scores import BoxScore, FlapError, FrameScore
 from boxwright.evaluation.verdicts import PANEL_READINGS, Rotated, judge, true_panels
 from boxwright.types import Object, TrueBox, Truth
@@ -72,15 +72,15 @@ def _score_box(objects: tuple[Object, ...], k: int | None, overlap: Overlap, tru
         readings=_box_readings(overlap, truth, b),
         object=k,
         rotation=best.rotation if best else None,
-        flaps_in_cloud=_count(in_cloud, (FLAP,)),
-        flaps_right=best.count("right", (FLAP,)) if best else 0,
-        flaps_wrong=best.count("wrong", (FLAP,)) if best else 0,
-        panels_in_cloud=_count(in_cloud, PANELS),
-        panels_right=best.count("right", PANELS) if best else 0,
-        panels_wrong=best.count("wrong", PANELS) if best else 0,
-        tucks_in_cloud=_count(in_cloud, (TUCK,)),
-        tucks_found=best.count("right", (TUCK,)) if best else 0,
-        tucks_wrong=best.count("wrong", (TUCK,)) if best else 0,
+        flaps_in_cloud=_count(in_cloud, FLAP),
+        flaps_right=best.count("right", FLAP) if best else 0,
+        flaps_wrong=best.count("wrong", FLAP) if best else 0,
+        panels_in_cloud=len(in_cloud) - _count(in_cloud, TUCK),
+        panels_right=best.count_panels("right") if best else 0,
+        panels_wrong=best.count_panels("wrong") if best else 0,
+        tucks_in_cloud=_count(in_cloud, TUCK),
+        tucks_found=best.count("right", TUCK) if best else 0,
+        tucks_wrong=best.count("wrong", TUCK) if best else 0,
         missed=tuple(name for name in in_cloud if name not in right),
         verdicts=best.verdicts if best else (),
         flap_errors=_flap_errors(objects[k], best, truth, panels) if k is not None and best else (),
@@ -110,5 +110,5 @@ def _flap_errors(model_object: Object, best: Rotated, truth: Truth, panels: dict
     )
 
 
-def _count(names: list[str], kinds: tuple[str, ...]) -> int:
-    return sum(kind_of(name) in kinds for name in names)
+def _count(names: list[str], kind: str) -> int:
+    return sum(kind_of(name) == kind for name in names)

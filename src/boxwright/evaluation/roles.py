@@ -7,10 +7,10 @@ import re
 ROTATIONS = (0, 1, 2, 3)
 """The four rotations of a box: under rotation r, predicted side k is true side (k + r) modulo 4."""
 
-BASE, SIDE, FLAP, TUCK = "base", "side", "flap", "tuck"
+FLAP = "flap"
 
-PANELS = (BASE, SIDE, FLAP)
-"""The kinds that the full model accuracy counts; flaps on flaps are counted apart."""
+TUCK = "tuck"
+"""A flap on a flap: counted apart. All other kinds count as panels of the full model."""
 
 TRUE_NAME = re.compile(r"(?P<kind>[a-z]+)(?P<number>\d*)")
 

@@ -6,7 +6,7 @@ import msgspec
 import numpy as np
 
 from boxwright.evaluation.overlap import Counts
-from boxwright.evaluation.roles import FLAP, PANELS, ROTATIONS, from_truth_name, kind_of, rotated
+from boxwright.evaluation.roles import FLAP, ROTATIONS, TUCK, from_truth_name, kind_of, rotated
 from boxwright.evaluation.scores import PartVerdict, Verdict
 from boxwright.types import Object, Truth
 
@@ -20,15 +20,19 @@ class Rotated(msgspec.Struct, frozen=True, kw_only=True):
     rotation: int
     verdicts: tuple[PartVerdict, ...]
 
-    def count(self, verdict: Verdict, kinds: tuple[str, ...]) -> int:
-        """How many parts of these kinds have that verdict."""
-        return sum(v.verdict == verdict and kind_of(v.name) in kinds for v in self.verdicts)
+    def count(self, verdict: Verdict, kind: str) -> int:
+        """How many parts of this kind have that verdict."""
+        return sum(v.verdict == verdict and kind_of(v.name) == kind for v in self.verdicts)
+
+    def count_panels(self, verdict: Verdict) -> int:
+        """How many parts have that verdict, flaps on flaps apart. A part of a foreign kind counts: it is wrong here."""
+        return sum(v.verdict == verdict and kind_of(v.name) != TUCK for v in self.verdicts)
 
     def merit(self) -> tuple[int, int, int]:
         """What the best rotation has most of: right less wrong panels, then flaps, then points on their roles."""
         return (
-            self.count("right", PANELS) - self.count("wrong", PANELS),
-            self.count("right", (FLAP,)) - self.count("wrong", (FLAP,)),
+            self.count_panels("right") - self.count_panels("wrong"),
+            self.count("right", FLAP) - self.count("wrong", FLAP),
             sum(v.points_on_role for v in self.verdicts),
         )
 

@@ -19,6 +19,10 @@ def load_json(path: str | PathLike[str], record: type[Record]) -> Record:
     data = Path(path).read_bytes()
     try:
         return msgspec.json.decode(data, type=record)
+    except RecursionError as error:
+        raise ValueError(
+            f"{path}: lists or objects are nested too deep; no such file has more than ten levels"
+        ) from error
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise ValueError(_one_line(path, str(error))) from error
 
