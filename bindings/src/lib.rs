@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 
 mod cloud;
+mod convert;
 mod model;
 mod perception;
 mod sensor;

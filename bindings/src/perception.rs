@@ -1,12 +1,11 @@
 use boxwright_core::cloud::CloudView;
-use boxwright_core::error::InputError;
 use boxwright_core::geometry::Vec3;
 use boxwright_core::perception::{perceive as perceive_cloud, PerceptionSettings, Scene};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
-use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::{Map, Value};
+
+use crate::convert::{named, rows_of_three, to_python};
 
 /// What perception says of a cloud; holds the core's `Scene`.
 #[pyclass(frozen, module = "boxwright._core")]
@@ -106,43 +105,11 @@ fn perceive(
     let points = rows_of_three(&points, width, height)?;
     let settings = PerceptionSettings {
         up: up.map(Vec3::from),
-        ..PerceptionSettings::with_overrides(named(settings)?).map_err(to_python)?
+        ..PerceptionSettings::with_overrides(named("perception", settings)?).map_err(to_python)?
     };
     let cloud = CloudView { points, width, height, viewpoint: viewpoint.map(Vec3::from) };
     let scene = py.detach(|| perceive_cloud(&cloud, &settings)).map_err(to_python)?;
     Ok(Perception { scene, point_count: points.len() })
-}
-
-fn rows_of_three<'a>(points: &'a PyReadonlyArray2<'_, f32>, width: usize, height: usize) -> PyResult<&'a [[f32; 3]]> {
-    let (rows, columns) = (points.as_array().nrows(), points.as_array().ncols());
-    if columns != 3 || width.checked_mul(height) != Some(rows) {
-        let problem = format!(
-            "points have shape ({rows}, {columns}); width {width} and height {height} want (width * height, 3)"
-        );
-        return Err(PyValueError::new_err(problem));
-    }
-    let flat = points
-        .as_slice()
-        .map_err(|_| PyValueError::new_err("points are not C-contiguous; pass numpy.ascontiguousarray(points)"))?;
-    Ok(flat.as_chunks::<3>().0)
-}
-
-fn named(settings: Option<&Bound<'_, PyDict>>) -> PyResult<Map<String, Value>> {
-    let mut values = Map::new();
-    for (name, value) in settings.into_iter().flat_map(|s| s.iter()) {
-        let name: String = name.extract()?;
-        let value = match (value.extract::<u64>(), value.extract::<f64>()) {
-            (Ok(whole), _) => Value::from(whole),
-            (_, Ok(real)) => Value::from(real),
-            _ => return Err(PyTypeError::new_err(format!("perception setting {name} is no number"))),
-        };
-        values.insert(name, value);
-    }
-    Ok(values)
-}
-
-fn to_python(error: InputError) -> PyErr {
-    PyValueError::new_err(error.to_string())
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -3,9 +3,11 @@
 use std::time::Instant;
 
 use crate::body::{build_object, ObjectAnswer};
+use crate::cloud::CloudView;
+use crate::error::Result;
 use crate::inference::{find_objects, FoundObject, ObjectModel, StagedSettings};
 use crate::model::{Assignment, Body, SegmentSet};
-use crate::perception::Scene;
+use crate::perception::{perceive, PerceptionSettings, Scene};
 
 const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
 
@@ -20,6 +22,21 @@ pub struct Answer {
     pub warnings: Vec<String>,
     /// Seconds of each stage, in order.
     pub stage_seconds: Vec<(&'static str, f64)>,
+}
+
+/// From a cloud to its objects: perception, inference, bodies.
+///
+/// # Errors
+/// What `perceive` refuses.
+pub fn infer(
+    cloud: &CloudView,
+    perception: &PerceptionSettings,
+    models: &[ObjectModel],
+    search: &StagedSettings,
+) -> Result<(Scene, Answer)> {
+    let scene = perceive(cloud, perception)?;
+    let answer = understand(&scene, cloud.points.len(), models, search);
+    Ok((scene, answer))
 }
 
 /// Understands a scene of `point_count` points: every group of segments against every object model.

@@ -128,3 +128,92 @@ def close_surface_groups(
     triangles: NDArray[np.float64], groups: NDArray[np.int32], gap_m: float
 ) -> list[tuple[int, int]]:
     """Pairs of groups (smaller first) whose triangles (T, 3, 3) cross or come nearer than `gap_m`; `groups` (T,)."""
+
+# --- model ---
+
+class Template:
+    """An object's template, read from TOML text. Raises ValueError naming the key that does not fit."""
+
+    def __init__(self, toml_text: str) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def parts(self) -> list[str]: ...
+    @property
+    def classes(self) -> list[str]:
+        """The class of each part ("side"), aligned with `parts`."""
+
+    @property
+    def feature_names(self) -> list[str]: ...
+    @property
+    def relation_names(self) -> list[str]: ...
+    @property
+    def edges(self) -> list[tuple[int, int]]:
+        """Pairs of part numbers that some relation ties."""
+
+    @property
+    def symmetries(self) -> list[list[int]]:
+        """Permutations that leave every score unchanged, identity first: `symmetries[k][p]` takes part p's segment."""
+
+class ObjectModel:
+    """A template with its weights (JSON text), ready to compete. Raises ValueError where they do not fit."""
+
+    def __init__(self, template: Template, weights_json: str, **search: float) -> None: ...
+
+class Problem:
+    """The segments of one group under one template: features, scores, search.
+
+    Assignments are int64 (K, parts): the number of the problem's segment that plays each part, -1 for none.
+    """
+
+    @staticmethod
+    def by_group(perception: Perception, template: Template) -> list[Problem]: ...
+    @property
+    def scene_segments(self) -> NDArray[np.int64]:
+        """(n,) numbers of the problem's segments among the perception's."""
+
+    def __len__(self) -> int: ...
+    def features(self, assignments: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Feature vectors (K, terms) of assignments (K, parts)."""
+
+    def rank(
+        self, weights: NDArray[np.float64], importance: NDArray[np.float64], most: int, **search: float
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64], float]:
+        """The best assignments (K, parts) of the staged search, their scores (K,), and the gap (eq. 1, "Inference")."""
+
+    def exhaustive(self, weights: NDArray[np.float64]) -> tuple[NDArray[np.int64], float, int]:
+        """The best of all assignments (parts,), its score, and how many were tried: small problems only."""
+
+class Answer:
+    """What was understood of a cloud of N points."""
+
+    def objects_json(self) -> list[str]:
+        """The objects as JSON text, best first, keys as in docs/formats.md."""
+
+    @property
+    def object_labels(self) -> NDArray[np.int16]:
+        """(N,) object of each point, -1 for none."""
+
+    @property
+    def part_labels(self) -> NDArray[np.int16]:
+        """(N,) part of each point among its object's parts, -1 for none."""
+
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def stage_seconds(self) -> dict[str, float]: ...
+
+def infer(
+    points: NDArray[np.float32],
+    width: int,
+    height: int,
+    models: list[ObjectModel],
+    viewpoint: tuple[float, float, float] | None = None,
+    up: tuple[float, float, float] | None = None,
+    perception: dict[str, float] | None = None,
+    search: dict[str, float] | None = None,
+) -> tuple[Perception, Answer]:
+    """From a cloud to its objects in one call. Raises ValueError where the cloud cannot be used, with the mend."""
+
+def understand(perception: Perception, models: list[ObjectModel], search: dict[str, float] | None = None) -> Answer:
+    """Objects among the segments that perception saw."""

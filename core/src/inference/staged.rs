@@ -1,13 +1,18 @@
 //! The paper's staged inference: a candidate list L on the sparse graph, its top c|L| re-ranked with every relation.
 
+use serde::Deserialize;
+use serde_json::{Map, Value};
+
 use super::completion::Completer;
 use super::graph::SearchPlan;
 use super::potentials::Potentials;
 use super::queue::CombinationQueue;
+use crate::error::{InputError, Result};
 use crate::model::{Assignment, FeatureTables, Template, Weights};
 
 /// Settings of the staged search.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct StagedSettings {
     /// Relations are dropped from the first stage until it costs at most n to this power. The paper drops gamma 4 and
     /// gamma 5, which brings the box from n^5 to n^4.
@@ -21,6 +26,17 @@ pub struct StagedSettings {
 impl Default for StagedSettings {
     fn default() -> Self {
         Self { max_exponent: 4, keep_fraction: 0.25, max_candidates: 100_000 }
+    }
+}
+
+impl StagedSettings {
+    /// The defaults with some values replaced by name.
+    ///
+    /// # Errors
+    /// Names a setting that does not exist or a value of the wrong kind.
+    pub fn with_overrides(overrides: Map<String, Value>) -> Result<Self> {
+        serde_json::from_value(Value::Object(overrides))
+            .map_err(|error| InputError::new(error.to_string()).in_source("search settings"))
     }
 }
 

@@ -1,1 +1,5 @@
 """Learning of the weights from labelled frames."""
+
+from boxwright.learning.train import SeenFrame, train
+
+__all__ = ["SeenFrame", "train"]

@@ -1,0 +1,47 @@
+"""Learned weights of one template, as data (`boxwright.weights`, version 1)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from boxwright import _core
+
+
+class TrainingReport(msgspec.Struct, frozen=True, kw_only=True):
+    """How the weights came to be. Errors are root mean squares of predicted against true correctness."""
+
+    command: str
+    frames: int
+    candidates: int
+    regularizer: float
+    fit_error: float
+    held_out_error: float
+    rank_accuracy: float
+    """Share of the training boxes of which the best candidate came first."""
+
+
+class LearnedWeights(msgspec.Struct, frozen=True, kw_only=True):
+    """What each feature and relation counts, how much it matters, and from which score something is an object."""
+
+    template: str
+    weights: dict[str, float]
+    importance: dict[str, float]
+    accept_score: float
+    training: TrainingReport | None = None
+    format: Literal["boxwright.weights"] = "boxwright.weights"
+    version: Literal[1] = 1
+
+    def vector(self, template: _core.Template) -> NDArray[np.float64]:
+        """The weights (terms,) in the order of the template's features and relations."""
+        names = template.feature_names + template.relation_names
+        return np.array([self.weights[name] for name in names])
+
+    def save(self, path: str | Path) -> None:
+        """Writes the weights as JSON."""
+        text = msgspec.json.format(msgspec.json.encode(self), indent=1)
+        Path(path).write_bytes(text + b"\n")
