@@ -9,12 +9,13 @@ import mujoco
 import numpy as np
 import pytest
 import yourdfpy
+from scipy.spatial.transform import Rotation
 
 from boxwright.kinematics import configuration, hinge_lines, part_corners, urdf_text
 from boxwright.kinematics.links import link_frames, root_part
 from boxwright.kinematics.transforms import apply, inverse
 from boxwright.types import Object
-from support.random_models import Angles, BoxSpec, Matrix, panels, random_angles, random_object, random_spec
+from support.random_models import Angles, BoxSpec, Matrix, loosened, panels, random_angles, random_object, random_spec
 
 MODELS = 60
 POSITIONS_EACH = 3
@@ -141,6 +142,52 @@ def test_the_box_of_a_rectangle_is_the_rectangle() -> None:
                 np.testing.assert_allclose(apply(input_from_box, signs * size / 2), truth[name], atol=1e-9)
                 count += 1
     assert count > MODELS * POSITIONS_EACH * 4 * 2
+
+
+def scipys_corners(model_object: Object, positions_rad: dict[str, float]) -> dict[str, Matrix]:
+    """Corners by scipy's rotations, from the farthest joint inwards."""
+    joint_of = {joint.child: joint for joint in model_object.joints}
+    found = {}
+    for part in model_object.parts:
+        if part.corners is None:
+            continue
+        corners, name = np.array(part.corners), part.name
+        while name in joint_of:
+            joint = joint_of[name]
+            turn = Rotation.from_rotvec((positions_rad[joint.name] - joint.position) * np.array(joint.axis))
+            corners = turn.apply(corners - np.array(joint.origin)) + np.array(joint.origin)
+            name = joint.parent
+        found[part.name] = corners
+    return found
+
+
+def test_hinges_measured_apart_from_their_panels_move_alike_everywhere() -> None:
+    rng = np.random.default_rng(20112)
+    count, worst = 0, 0.0
+    for _, exact, angles in cases():
+        model_object = loosened(exact, rng)
+        positions_rad = by_joint(angles)
+        expected = scipys_corners(model_object, positions_rad)
+        ours = part_corners(model_object, positions_rad)
+        text, local = urdf_text(model_object), corners_in_links(model_object)
+        robot = yourdfpy.URDF.load(io.StringIO(text), load_meshes=False)
+        robot.update_cfg(positions_rad)
+        model = mujoco.MjModel.from_xml_string(text)
+        data = mujoco.MjData(model)
+        for name, position_rad in positions_rad.items():
+            data.joint(name).qpos[0] = position_rad
+        mujoco.mj_forward(model, data)
+        root = root_part(model_object, None)
+        input_from_root = link_frames(model_object, root)[root]
+        for name, corners in expected.items():
+            body = data.body(name)
+            in_world = local[name] @ body.xmat.reshape(3, 3).T + body.xpos
+            by_yourdfpy = apply(input_from_root @ robot.get_transform(name, root), local[name])
+            for found in (ours[name], by_yourdfpy, apply(input_from_root, in_world)):
+                worst = max(worst, float(np.abs(found - corners).max()))
+            count += 1
+    assert count > MODELS * POSITIONS_EACH * 6
+    assert worst < 1e-9
 
 
 def test_an_unknown_joint_is_refused() -> None:

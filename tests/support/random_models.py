@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
@@ -116,6 +117,21 @@ def random_object(spec: BoxSpec, angles: Angles) -> Object:
         parts=tuple(_part(name, None if name in missing else placed.get(name)) for name in names),
         joints=tuple(_joint(name, placed[name], position) for name, position in angles.items()),
     )
+
+
+def loosened(model_object: Object, rng: np.random.Generator) -> Object:
+    """The object with hinges that were measured apart from the panels: moved by centimetres, tilted by degrees."""
+    joints = []
+    for joint in model_object.joints:
+        axis = np.array(joint.axis) + rng.normal(0.0, 0.1, 3)
+        joints.append(
+            msgspec.structs.replace(
+                joint,
+                origin=_triple(np.array(joint.origin) + rng.normal(0.0, 0.01, 3)),
+                axis=_triple(axis / np.linalg.norm(axis)),
+            )
+        )
+    return msgspec.structs.replace(model_object, joints=tuple(joints))
 
 
 def _flap_panels(flap: Flap, start: Matrix, end: Matrix, angles: Angles) -> dict[str, Matrix]:
