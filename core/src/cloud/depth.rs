@@ -56,22 +56,10 @@ impl Intrinsics {
 /// Reads a depth image; value 0 is no reading, and lens distortion is undone.
 pub(super) fn read_depth(bytes: &[u8], camera: &Intrinsics, decoding: DepthDecode) -> Result<Parsed> {
     camera.check()?;
-    let image = decode(bytes)?;
-    check_image_size(&image, camera)?;
+    let image = decode(bytes, camera.size)?;
     let points = back_project(&image, camera, decoding)?;
     let body = Body { points, colors: None, labels: None };
     Ok(Parsed { body, width: image.width, height: image.height, pose: HeaderPose::origin() })
-}
-
-fn check_image_size(image: &DepthImage, camera: &Intrinsics) -> Result<()> {
-    match camera.size {
-        Some((width, height)) if (width, height) != (image.width, image.height) => {
-            Err(InputError::new(format!("the image is {} x {} pixels", image.width, image.height))
-                .at("header")
-                .mend(format!("the intrinsics are for {width} x {height}")))
-        }
-        _ => Ok(()),
-    }
 }
 
 fn back_project(image: &DepthImage, camera: &Intrinsics, decoding: DepthDecode) -> Result<Vec<[f32; 3]>> {

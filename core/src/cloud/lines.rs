@@ -1,5 +1,10 @@
 //! Text lines of a file that may turn binary half-way, with their numbers and places.
 
+use crate::error::{InputError, Result};
+
+/// Room for a thousand fields.
+const LONGEST_HEADER_LINE: usize = 1 << 16;
+
 /// Walks over lines; the place after the last line taken is where binary data begins.
 pub(super) struct Lines<'a> {
     bytes: &'a [u8],
@@ -21,6 +26,18 @@ impl<'a> Lines<'a> {
         self.at += (length + 1).min(rest.len());
         self.number += 1;
         Some(rest[..length].trim_ascii())
+    }
+
+    /// Next line of a header, whose lines are short: a binary file with a text file's name is not taken for one.
+    pub fn next_header_line(&mut self) -> Result<Option<&'a [u8]>> {
+        match self.next_line() {
+            Some(line) if line.len() > LONGEST_HEADER_LINE => {
+                Err(InputError::new(format!("the header has a line of {} bytes", line.len()))
+                    .at(self.place())
+                    .mend(format!("must be at most {LONGEST_HEADER_LINE}")))
+            }
+            line => Ok(line),
+        }
     }
 
     /// Next line with anything on it.
@@ -55,6 +72,11 @@ pub(super) fn quote(bytes: &[u8]) -> String {
     let shown = &bytes[..bytes.len().min(SHOWN)];
     let more = if bytes.len() > SHOWN { "..." } else { "" };
     format!("\"{}{more}\"", shown.escape_ascii())
+}
+
+/// A name out of a file, printable whatever it is.
+pub(super) fn name_of(word: &[u8]) -> String {
+    word.escape_ascii().to_string()
 }
 
 /// A word as a number of any type.

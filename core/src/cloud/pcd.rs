@@ -14,13 +14,20 @@ use crate::error::{InputError, Result};
 pub(super) fn read_pcd(bytes: &[u8]) -> Result<Parsed> {
     let mut lines = Lines::new(bytes);
     let header = read_header(&mut lines)?;
-    check_single(&header.fields)?;
+    check_roles(&header.fields)?;
     let body = match header.data {
         Data::Ascii => read_ascii(&mut lines, &header)?,
         Data::Binary => read_binary(bytes, lines.at, &header)?,
         Data::BinaryCompressed => read_compressed(bytes, lines.at, &header)?,
     };
     Ok(Parsed { body, width: header.width, height: header.height, pose: header.pose })
+}
+
+/// Wrong fields are told before wrong sizes, which they may cause.
+fn check_roles(fields: &[PcdField]) -> Result<()> {
+    check_single(fields)?;
+    let placed: Vec<Field<()>> = fields.iter().filter_map(|field| field.placed(())).collect();
+    find_roles(&placed).map(|_| ())
 }
 
 /// A coordinate with COUNT 3 would otherwise be told as missing, a colour passed over.

@@ -8,7 +8,7 @@
 //! - COUNT may be missing (1 everywhere); SIZE and TYPE may not.
 
 use super::fields::Field;
-use super::lines::{number, quote, words, Lines};
+use super::lines::{name_of, number, quote, words, Lines};
 use super::parsed::HeaderPose;
 use super::scalar::Scalar;
 use crate::error::{InputError, Result};
@@ -73,7 +73,7 @@ struct Entries<'a> {
 pub(super) fn read_header(lines: &mut Lines<'_>) -> Result<PcdHeader> {
     let mut entries = Entries::default();
     let data = loop {
-        let Some(line) = lines.next_line() else {
+        let Some(line) = lines.next_header_line()? else {
             return Err(InputError::new("the header has no DATA line").at(lines.place()).mend("is the file cut off?"));
         };
         if line.is_empty() || line[0] == b'#' {
@@ -220,5 +220,5 @@ fn read_field(name: &[u8], size: &[u8], kind: &[u8], count: &[u8]) -> Result<Pcd
     let count = number(count).ok_or_else(|| {
         InputError::new(format!("field {} has COUNT {}", quote(name), quote(count))).mend("must be a whole number")
     })?;
-    Ok(PcdField { name: String::from_utf8_lossy(name).into_owned(), scalar, count })
+    Ok(PcdField { name: name_of(name), scalar, count })
 }

@@ -1,6 +1,6 @@
 //! The header of a PLY file. Format: <http://paulbourke.net/dataformats/ply/>.
 
-use super::lines::{number, quote, words, Lines};
+use super::lines::{name_of, number, quote, words, Lines};
 use super::scalar::{Endian, Scalar};
 use crate::error::{InputError, Result};
 
@@ -60,13 +60,13 @@ pub(super) struct PlyHeader {
 
 /// Reads from "ply" to "end_header".
 pub(super) fn read_header(lines: &mut Lines<'_>) -> Result<PlyHeader> {
-    if lines.next_line() != Some(b"ply") {
+    if lines.next_header_line()? != Some(b"ply") {
         return Err(InputError::new("the first line is not \"ply\"").at("line 1"));
     }
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
     loop {
-        let Some(line) = lines.next_line() else {
+        let Some(line) = lines.next_header_line()? else {
             return Err(InputError::new("the header has no end_header").at(lines.place()).mend("is the file cut off?"));
         };
         let row: Vec<&[u8]> = words(line).collect();
@@ -100,7 +100,7 @@ fn read_element(name: &[u8], count: &[u8]) -> Result<Element> {
         InputError::new(format!("element {} is there {} times", quote(name), quote(count)))
             .mend("must be a whole number")
     })?;
-    Ok(Element { name: String::from_utf8_lossy(name).into_owned(), count, properties: Vec::new() })
+    Ok(Element { name: name_of(name), count, properties: Vec::new() })
 }
 
 fn add_property(elements: &mut [Element], property: Property) -> Result<()> {
@@ -115,7 +115,7 @@ fn read_property(row: &[&[u8]]) -> Result<Property> {
         [kind, name] => (Kind::Value(read_type(kind)?), name),
         _ => return Err(InputError::new("the property cannot be read").mend("must be: property TYPE NAME")),
     };
-    Ok(Property { name: String::from_utf8_lossy(name).into_owned(), kind })
+    Ok(Property { name: name_of(name), kind })
 }
 
 fn length_type(name: &[u8]) -> Result<Scalar> {

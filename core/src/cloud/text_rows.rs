@@ -6,6 +6,9 @@ use super::records::{bad_label, channel_byte, label_from, unpack};
 use super::scalar::{coordinate, Scalar};
 use crate::error::{InputError, Result};
 
+/// More values than any point has (large feature histograms have some thousands).
+const MOST_WORDS: usize = 1 << 16;
+
 /// What stands on a line, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Item {
@@ -45,6 +48,11 @@ fn check_room(lines: &Lines<'_>, count: usize, items: &[Item]) -> Result<()> {
         Item::Values(n) => sum.checked_add(*n),
         Item::List => sum.checked_add(1),
     });
+    if words.is_none_or(|words| words > MOST_WORDS) {
+        return Err(InputError::new("the fields have more values than fit a line of text")
+            .at("header")
+            .mend(format!("must be at most {MOST_WORDS} values a point")));
+    }
     let needed = words.and_then(|words| words.checked_mul(2)?.checked_mul(count));
     if needed.is_none_or(|needed| needed > lines.left() + 1) {
         return Err(InputError::new(format!(
