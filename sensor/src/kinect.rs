@@ -51,9 +51,9 @@ impl Default for Kinect {
             min_depth_m: 0.45,
             max_depth_m: 4.5,
             disparity_step_px: 0.125,
-            white_px: 0.050,
-            patchy_px: 0.040,
-            ripple_px: 0.025,
+            white_px: 0.045,
+            patchy_px: 0.055,
+            ripple_px: 0.030,
             ray_jitter_px: 0.5,
             flying_share: 0.12,
             edge_swap_share: 0.35,
@@ -115,7 +115,7 @@ pub fn simulate(scene: &Scene<'_>, camera: &Kinect, seed: u64) -> Result<Vec<Rea
     scene.check()?;
     camera.check()?;
     let hits = cast(scene, camera, Some(seed));
-    let noise = Noise::new(camera, seed);
+    let noise = Noise::new(seed);
     let blank = Reading { point: [f32::NAN; 3], surface_id: 0, rgb: [0; 3] };
     let mut readings = vec![blank; hits.len()];
     readings.par_chunks_mut(camera.width).enumerate().for_each(|(v, row)| {
@@ -129,6 +129,10 @@ pub fn simulate(scene: &Scene<'_>, camera: &Kinect, seed: u64) -> Result<Vec<Rea
 /// A depth edge is a step of more than this share of the disparity between neighbours.
 const EDGE_SHARE: f64 = 0.03;
 
+/// Sizes of the patches (the matcher's window is 7 to 9 px wide) and of the ripples.
+const PATCH_PX: f64 = 5.0;
+const RIPPLE_PX: f64 = 80.0;
+
 struct Noise {
     seed: u64,
     patches: Field,
@@ -137,12 +141,12 @@ struct Noise {
 }
 
 impl Noise {
-    fn new(_camera: &Kinect, seed: u64) -> Self {
+    fn new(seed: u64) -> Self {
         Self {
             seed,
-            patches: Field::new(seed, Stream::Patch, 7.0),
-            ripples: Field::new(seed, Stream::Ripple, 90.0),
-            losses: Field::new(seed, Stream::GrazingPatch, 5.0),
+            patches: Field::new(seed, Stream::Patch, PATCH_PX),
+            ripples: Field::new(seed, Stream::Ripple, RIPPLE_PX),
+            losses: Field::new(seed, Stream::GrazingPatch, PATCH_PX),
         }
     }
 

@@ -33,7 +33,7 @@ def shelf(rng: Rng) -> list[Body]:
     parts = [apply(translation([s * (width - board) / 2, 0, 0]), upright) for s in (-1, 1)]
     level = cuboid((width - 2 * board, depth, board))
     parts += [apply(translation([0, 0, z]), level) for z in np.linspace(0, height - board, int(rng.integers(2, 5)))]
-    return [Body(part, WOOD) for part in parts]
+    return [Body(np.concatenate(parts), WOOD)]
 
 
 def angle_of_boards(rng: Rng) -> list[Body]:
@@ -43,7 +43,7 @@ def angle_of_boards(rng: Rng) -> list[Body]:
     parts.append(apply(translation([(length - board) / 2, 0, 0]), cuboid((board, width, height))))
     if rng.random() < 0.5:
         parts.append(apply(translation([-board / 2, 0, 0]), cuboid((length - board, width, board))))
-    return [Body(part, CARDBOARD) for part in parts]
+    return [Body(np.concatenate(parts), CARDBOARD)]
 
 
 def stool(rng: Rng) -> list[Body]:
@@ -53,14 +53,15 @@ def stool(rng: Rng) -> list[Body]:
     corner = side / 2 - 0.03
     parts = [apply(translation([x * corner, y * corner, 0]), leg) for x in (-1, 1) for y in (-1, 1)]
     parts.append(apply(translation([0, 0, height]), cuboid((side, side, 0.025))))
-    return [Body(part, WOOD) for part in parts]
+    return [Body(np.concatenate(parts), WOOD)]
 
 
 def leaning_board(rng: Rng) -> list[Body]:
-    """A board that stands slanting before a block."""
+    """A board that leans on a block."""
     tilt = float(np.radians(rng.uniform(10, 35)))
     board = apply(translation([0, 0, 0.003]) @ rotation([1, 0, 0], -tilt), cuboid((rng.uniform(0.2, 0.5), 0.005, 0.4)))
-    block = apply(translation([0, 0.30, 0]), cuboid((0.2, 0.08, 0.12)))
+    touch_m = 0.12 * np.tan(tilt) + 0.005 / np.cos(tilt)
+    block = apply(translation([0, touch_m + 0.04, 0]), cuboid((0.2, 0.08, 0.12)))
     return [Body(board, CARDBOARD), Body(block, WOOD)]
 
 

@@ -39,8 +39,8 @@ def _between(rng: Rng, span: tuple[float, float]) -> float:
 
 def _angle_rad(rng: Rng) -> float:
     """From nearly closed to hanging below the rim."""
-    spans = ((10.0, 60.0), (60.0, 130.0), (130.0, 190.0), (190.0, 237.0))
-    return float(np.radians(_between(rng, spans[rng.choice(4, p=(0.17, 0.35, 0.26, 0.22))])))
+    spans = ((10.0, 25.0), (25.0, 60.0), (60.0, 130.0), (130.0, 190.0), (190.0, 238.0))
+    return float(np.radians(_between(rng, spans[rng.choice(5, p=(0.12, 0.12, 0.30, 0.24, 0.22))])))
 
 
 def _bend_rad(rng: Rng) -> float:

@@ -13,6 +13,8 @@ Rng = np.random.Generator
 DISTANCES_M = {"small": (0.7, 1.2), "carton": (0.8, 1.5), "cake": (0.75, 1.6), "pizza": (0.9, 1.7), "none": (0.8, 1.8)}
 FAR_M = (1.1, 1.9)
 """For the larger boxes."""
+FARTHEST_M = 2.3
+"""Beyond this, what does not fit in the frame is cut by it."""
 
 
 def look_at(target_m: Array, azimuth_rad: float, elevation_rad: float, distance_m: float, roll_rad: float) -> Array:
@@ -37,7 +39,7 @@ def draw_view(rng: Rng, category: str, content: Array, camera: Camera) -> tuple[
     """
     azimuth = rng.uniform(0, 2 * np.pi)
     is_down = rng.random() < 0.11
-    elevation = np.radians(rng.uniform(84, 90) if is_down else 20 + 65 * rng.beta(1.6, 1.5))
+    elevation = np.radians(rng.uniform(84, 90) if is_down else 20 + 65 * rng.beta(1.35, 1.6))
     roll = rng.uniform(0, 2 * np.pi) if is_down else np.radians(rng.normal(0, 2.0))
     distance = rng.uniform(*DISTANCES_M.get(category, FAR_M))
     middle = (content.min(axis=0) + content.max(axis=0)) / 2
@@ -48,7 +50,7 @@ def draw_view(rng: Rng, category: str, content: Array, camera: Camera) -> tuple[
         pose = look_at(target, azimuth, elevation, distance, roll)
         if is_cut or _fits(content, pose, camera):
             break
-        target, distance = (target + middle) / 2, distance * 1.06
+        target, distance = (target + middle) / 2, min(distance * 1.06, FARTHEST_M)
     return pose, float(azimuth + np.pi)
 
 
