@@ -19,10 +19,10 @@ from boxwright.kinematics.transforms import Matrix, apply, inverse, rigid, roll_
 from boxwright.types import Joint, Object
 
 BOARD_G_PER_M2 = 550.0
-"""Single-wall corrugated board: liners of 175 + 175 g/m2, a medium of 140 g/m2 by the take-up 1.43 of C flute."""
+"""Single-wall board of common papers: two liners of 175 g/m2, a medium of 140 g/m2 by C flute's take-up, about 1.43."""
 
 BOARD_THICKNESS_M = 0.004
-"""C flute (FEFCO: about 3.6 mm between the liners, and these); used where the object does not tell its own."""
+"""C flute, nominally 5/32 inch (Fibre Box Association); used where the object does not tell its own."""
 
 HINGE_EFFORT_N_M = 10.0
 HINGE_VELOCITY_RAD_PER_S = 6.283185307179586
