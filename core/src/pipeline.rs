@@ -60,8 +60,8 @@ pub fn understand(scene: &Scene, point_count: usize, models: &[ObjectModel], set
         stage_seconds: Vec::new(),
     };
     for (set, object) in &found {
-        let template = &models[object.model].template;
-        let (built, assignment) = build_object(template, scene, set, object);
+        let ObjectModel { template, weights, .. } = &models[object.model];
+        let (built, assignment) = build_object(template, weights, scene, set, object);
         if built.pose.is_none() && template.body != Body::Free {
             let number = answer.objects.len();
             answer.warnings.push(format!("object {number} ({}): {NO_POSE}", template.name));

@@ -13,6 +13,8 @@ pub struct ObjectAnswer {
     pub score: f64,
     pub probability: Option<f64>,
     pub inference: InferenceAnswer,
+    /// What the score is made of, features first, in the template's order.
+    pub score_terms: Vec<ScoreTermAnswer>,
     pub dimensions: Option<[f64; 3]>,
     pub outer_dimensions: Option<[f64; 3]>,
     pub thickness: Option<f64>,
@@ -33,6 +35,17 @@ pub struct InferenceAnswer {
     pub status: &'static str,
     pub gap: Option<f64>,
     pub alternatives: usize,
+}
+
+/// One feature or relation, summed over its parts; `contribution` = weight x value is its share of the score.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScoreTermAnswer {
+    pub name: String,
+    /// The paper's name of its kind.
+    pub kind: &'static str,
+    pub value: f64,
+    pub weight: f64,
+    pub contribution: f64,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -2,14 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use super::answer::{array, corner_arrays, InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer};
+use super::answer::{
+    array, corner_arrays, InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer,
+};
 use super::box_frame::{opening_direction, BoxFrame};
 use super::box_panels::{base_panel, flap_panel, side_panel, tuck_panel, Hinge, Panel};
 use super::free::hinge_between;
 use super::ring::{order_ring, BoxSegments};
 use crate::geometry::Vec3;
 use crate::inference::FoundObject;
-use crate::model::{Assignment, Body, OpenBoxRoles, SegmentSet, Template};
+use crate::model::{Assignment, Body, OpenBoxRoles, SegmentSet, Template, Weights};
 use crate::perception::Scene;
 
 /// Fewer seen sides than this say neither where the box is nor how large.
@@ -18,6 +20,7 @@ const SIDES_FOR_A_POSE: usize = 2;
 /// The object with the assignment in its written order: symmetric templates are renumbered (docs/formats.md, "frames").
 pub fn build_object(
     template: &Template,
+    weights: &Weights,
     scene: &Scene,
     set: &SegmentSet,
     found: &FoundObject,
@@ -29,6 +32,7 @@ pub fn build_object(
         score: found.candidate.score,
         probability: None,
         inference: InferenceAnswer::new(found.gap, found.alternatives),
+        score_terms: score_terms(template, weights, &found.feature_vector),
         dimensions: None,
         outer_dimensions: None,
         thickness: None,
@@ -52,6 +56,19 @@ pub fn build_object(
             (object, assignment.clone())
         }
     }
+}
+
+fn score_terms(template: &Template, weights: &Weights, feature_vector: &[f64]) -> Vec<ScoreTermAnswer> {
+    let names = template.term_names().zip(template.term_symbols());
+    let terms = names.zip(feature_vector.iter().zip(&weights.values));
+    let answer = |((name, kind), (&value, &weight)): ((&str, &'static str), (&f64, &f64))| ScoreTermAnswer {
+        name: name.to_owned(),
+        kind,
+        value,
+        weight,
+        contribution: weight * value,
+    };
+    terms.map(answer).collect()
 }
 
 fn seen_sides(roles: &OpenBoxRoles, assignment: &[Option<usize>]) -> usize {

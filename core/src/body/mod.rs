@@ -8,5 +8,5 @@ mod free;
 mod hinge;
 mod ring;
 
-pub use answer::{InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer};
+pub use answer::{InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer};
 pub use build::build_object;

@@ -25,6 +25,8 @@ pub struct FoundObject {
     /// Number of the object model that it is an instance of.
     pub model: usize,
     pub candidate: Candidate,
+    /// f(G) of eq. 1, in the order of the template's terms.
+    pub feature_vector: Vec<f64>,
     pub gap: f64,
     /// Other assignments that were ranked against it.
     pub alternatives: usize,
@@ -56,7 +58,8 @@ fn best_object(
         let alternatives = ranking.candidates.len().saturating_sub(1);
         let candidate = ranking.candidates.into_iter().find(|c| model.template.accept.allows(&c.assignment))?;
         let passes = candidate.score >= model.weights.accept_score;
-        passes.then_some(FoundObject { model: number, candidate, gap: ranking.gap, alternatives })
+        let feature_vector = tables.feature_vector(&model.template, &candidate.assignment);
+        passes.then_some(FoundObject { model: number, candidate, feature_vector, gap: ranking.gap, alternatives })
     });
     contenders.reduce(|best, next| if next.candidate.score > best.candidate.score { next } else { best })
 }

@@ -109,6 +109,12 @@ impl Template {
         features.chain(self.relations.iter().map(|term| term.name.as_str()))
     }
 
+    /// The paper's names of the terms' kinds, in the order of `term_names`.
+    pub fn term_symbols(&self) -> impl Iterator<Item = &'static str> + '_ {
+        let features = self.features.iter().map(|term| term.feature.symbol());
+        features.chain(self.relations.iter().map(|term| term.relation.symbol()))
+    }
+
     pub fn term_count(&self) -> usize {
         self.features.len() + self.relations.len()
     }

@@ -3,7 +3,7 @@
 from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, PartState, Pose
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
-from boxwright.types.model import Inference, Model, Object, Seconds, Source, SupportPlane
+from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
 from boxwright.types.truth import Camera, TrueBox, TruePart, Truth
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "Part",
     "PartState",
     "Pose",
+    "ScoreTerm",
     "Seconds",
     "Source",
     "SupportPlane",

@@ -76,12 +76,30 @@ class Inference(msgspec.Struct, frozen=True, kw_only=True):
         require_not_negative("alternatives", [self.alternatives])
 
 
+class ScoreTerm(msgspec.Struct, frozen=True, kw_only=True):
+    """One feature or relation of the template, summed over its parts, in radians, metres or a count as its kind says.
+
+    `kind` is the paper's name ("phi 1", "Gamma 3"); `contribution` = weight x value is its share of the score.
+    """
+
+    name: str
+    kind: str
+    value: float
+    weight: float
+    contribution: float
+
+    def __post_init__(self) -> None:
+        require_name("name", self.name)
+        require_finite("score_terms", [self.value, self.weight, self.contribution])
+
+
 class Object(msgspec.Struct, frozen=True, kw_only=True):
     """One articulated object.
 
     `score` is J(G). `dimensions` and `outer_dimensions` are length, width, height and `thickness` the board's, metres;
     `pose` is input_from_object. They are None where too little was seen to say (paper's method: fewer than two sides),
-    as are probabilities that the method does not have. `parts` lists every part of the template; `joints` what turns.
+    as are probabilities that the method does not have. `parts` lists every part of the template; `joints` what turns;
+    `score_terms` what the score is made of.
     """
 
     template: str
@@ -96,6 +114,7 @@ class Object(msgspec.Struct, frozen=True, kw_only=True):
     parameters: dict[str, Parameter]
     parts: tuple[Part, ...]
     joints: tuple[Joint, ...]
+    score_terms: tuple[ScoreTerm, ...] = ()
 
     def __post_init__(self) -> None:
         require_name("template", self.template)

@@ -21,6 +21,15 @@ pub enum Feature {
 }
 
 impl Feature {
+    /// The paper's name of the kind.
+    pub fn symbol(&self) -> &'static str {
+        match self {
+            Self::Orientation(_) => "phi 1",
+            Self::Location(_) => "phi 2",
+            Self::Existence => "phi 3",
+        }
+    }
+
     /// Value for segment `s`; radians, metres or a count, as the kind says.
     pub fn value(&self, set: &SegmentSet, s: usize) -> f64 {
         match self {

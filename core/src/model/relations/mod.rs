@@ -30,6 +30,17 @@ pub enum Relation {
 }
 
 impl Relation {
+    /// The paper's name of the kind.
+    pub fn symbol(&self) -> &'static str {
+        match self {
+            Self::Orientation(_) => "Gamma 1",
+            Self::Location(_) => "Gamma 2",
+            Self::Connectivity(_) => "Gamma 3",
+            Self::Rectangular(_) => "gamma 4",
+            Self::Parallel(_) => "gamma 5",
+        }
+    }
+
     /// Value for segments `a` and `b` as first and second part of a pair; radians or metres, as the kind says.
     pub fn value(&self, set: &SegmentSet, a: usize, b: usize) -> f64 {
         match self {
