@@ -1,105 +1,136 @@
 //! The base of an open box lies within the support's tolerance: only what the walls enclose tells the two apart.
 
+use super::enclosure::Enclosure;
 use super::planes::Segment;
 use super::readings::Readings;
 use super::PerceptionSettings;
-use crate::geometry::{convex_hull, hull_contains, Moments, Plane, PlaneFrame, Point2};
+use crate::geometry::{convex_hull, Moments, Plane, PlaneFrame, Point2};
 
-/// Walls that turn less than this against each other do not enclose: cosine of 45 degrees.
-const PARALLEL_COSINE: f64 = 0.707;
-/// Share of a wall's readings that may be lower than its foot (strays).
-const FOOT_SHARE: f64 = 0.02;
+/// Upright segments without which nothing is enclosed.
+const MIN_WALLS: usize = 2;
+/// Side of a patch of an unorganized cloud's band, metres.
+const PATCH_M: f64 = 0.03;
+/// Pieces of the band below this many readings are no base.
+const MIN_PATCH_POINTS: usize = 12;
 
-/// Readings at the support's height, gathered once for all groups.
+/// Readings at the support's height, in patches that hang together, gathered once for all groups.
 pub struct SupportBand {
     support: Plane,
     frame: PlaneFrame,
-    indices: Vec<u32>,
+    patches: Vec<Vec<u32>>,
 }
 
 impl SupportBand {
-    pub fn new(readings: &Readings, indices: &[u32], support: &Plane, settings: &PerceptionSettings) -> Self {
-        let near = |i: &u32| {
-            let p = readings.point(*i);
-            support.height_of(&p).abs() <= settings.base_band_m.max(readings.tolerance_m(&p))
+    /// `free` says of each point of the cloud that it is a reading of no segment; `width` is 0 for an unorganized cloud.
+    pub fn new(
+        readings: &Readings,
+        free: &[bool],
+        width: usize,
+        support: &Plane,
+        settings: &PerceptionSettings,
+    ) -> Self {
+        let in_band = |i: usize| {
+            let p = readings.point(i as u32);
+            free[i] && support.height_of(&p).abs() <= settings.base_band_m.max(readings.tolerance_m(&p))
         };
-        let indices: Vec<u32> = indices.iter().copied().filter(near).collect();
-        let origin = indices.first().map_or_else(Default::default, |&i| readings.point(i));
-        Self { support: *support, frame: PlaneFrame::new(support, &origin), indices }
+        let band: Vec<bool> = (0..free.len()).map(in_band).collect();
+        let origin = band.iter().position(|&b| b).map_or_else(Default::default, |i| readings.point(i as u32));
+        let frame = PlaneFrame::new(support, &origin);
+        let mut patches = if width > 0 { pixel_patches(&band, width) } else { square_patches(readings, &band, &frame) };
+        patches.retain(|p| p.len() >= MIN_PATCH_POINTS);
+        Self { support: *support, frame, patches }
     }
 
-    /// Adds to a group's segments the readings that its walls enclose; segments that lie in the band are taken into it.
+    /// Adds to a group's segments the patches that it encloses; level segments that lie in the band are taken into them.
     pub fn add_base(&self, readings: &Readings, segments: &mut Vec<Segment>, settings: &PerceptionSettings) {
-        let Some(outline) = self.wall_outline(readings, segments, settings) else { return };
-        let is_base = |s: &Segment| self.is_in_band(readings, s, &outline, settings);
-        let mut points: Vec<u32> = segments.iter().filter(|s| is_base(s)).flat_map(|s| s.points.clone()).collect();
-        let claimed = claimed(segments);
-        let inside =
-            |i: &u32| hull_contains(&outline, &self.frame.to_plane(&readings.point(*i)), settings.base_margin_m);
-        points.extend(self.indices.iter().copied().filter(|i| claimed.binary_search(i).is_err() && inside(i)));
+        if segments.iter().filter(|s| self.is_wall(s, settings)).count() < MIN_WALLS {
+            return;
+        }
+        let outline = self.standing_points(readings, segments, settings);
+        let Some(enclosure) = Enclosure::new(&outline, settings.base_margin_m) else { return };
+        let flat = |i: &u32| self.frame.to_plane(&readings.point(*i));
+        let encloses = |patch: &&Vec<u32>| enclosure.encloses(&patch.iter().map(flat).collect::<Vec<_>>());
+        let mut points: Vec<u32> = self.patches.iter().filter(encloses).flatten().copied().collect();
+        let is_base = |s: &Segment| {
+            self.is_level_in_band(readings, s, settings)
+                && enclosure.encloses(&s.points.iter().map(flat).collect::<Vec<_>>())
+        };
+        segments.iter().filter(|s| is_base(s)).for_each(|s| points.extend(&s.points));
         points.sort_unstable();
-        points.dedup();
+        if let Some(base) = self.segment_of(readings, points) {
+            if base.points.len() >= settings.min_segment_points && base.area_m2 >= settings.min_segment_area_m2 {
+                segments.retain(|s| !is_base(s));
+                segments.push(base);
+            }
+        }
+    }
+
+    fn segment_of(&self, readings: &Readings, points: Vec<u32>) -> Option<Segment> {
         let mut moments = Moments::default();
         points.iter().for_each(|&i| moments.add_point(&readings.point(i)));
-        let Some((plane, rms_m)) = moments.fit_plane() else { return };
+        let (plane, rms_m) = moments.fit_plane()?;
         let footprint: Vec<Point2> = points.iter().map(|&i| self.frame.to_plane(&readings.point(i))).collect();
-        let area_m2 = polygon_area(&convex_hull(&footprint));
-        if points.len() >= settings.min_segment_points && area_m2 >= settings.min_segment_area_m2 {
-            segments.retain(|s| !is_base(s));
-            segments.push(Segment { plane, rms_m, area_m2, points });
-        }
+        Some(Segment { plane, rms_m, area_m2: polygon_area(&convex_hull(&footprint)), points })
     }
 
-    /// Outline on the support of the walls that reach down to it; `None` where they are too few to enclose anything.
-    fn wall_outline(
-        &self,
-        readings: &Readings,
-        segments: &[Segment],
-        settings: &PerceptionSettings,
-    ) -> Option<Vec<Point2>> {
-        let walls: Vec<&Segment> = segments.iter().filter(|s| self.is_wall(readings, s, settings)).collect();
-        let normals = walls.iter().map(|w| w.plane.normal);
-        let crossing = normals.clone().any(|a| normals.clone().any(|b| a.dot(&b).abs() < PARALLEL_COSINE));
-        let points = walls.iter().flat_map(|w| &w.points).map(|&i| self.frame.to_plane(&readings.point(i)));
-        crossing.then(|| convex_hull(&points.collect::<Vec<_>>()))
+    /// Footprint of the group's readings above the band, without what lies level in it.
+    fn standing_points(&self, readings: &Readings, segments: &[Segment], settings: &PerceptionSettings) -> Vec<Point2> {
+        let standing = segments.iter().filter(|s| !self.is_level_in_band(readings, s, settings));
+        let points = standing.flat_map(|s| &s.points).map(|&i| readings.point(i));
+        points.filter(|p| self.support.height_of(p) > settings.base_band_m).map(|p| self.frame.to_plane(&p)).collect()
     }
 
-    fn is_wall(&self, readings: &Readings, segment: &Segment, settings: &PerceptionSettings) -> bool {
-        let upright = segment.plane.normal.dot(&self.support.normal).abs() < settings.wall_tilt_rad.sin();
-        upright && {
-            let mut heights: Vec<f64> =
-                segment.points.iter().map(|&i| self.support.height_of(&readings.point(i))).collect();
-            let foot = (heights.len() as f64 * FOOT_SHARE) as usize;
-            *heights.select_nth_unstable_by(foot, f64::total_cmp).1 < settings.wall_foot_m
-        }
+    fn is_wall(&self, segment: &Segment, settings: &PerceptionSettings) -> bool {
+        segment.plane.normal.dot(&self.support.normal).abs() < settings.wall_tilt_rad.sin()
     }
 
-    fn is_in_band(
-        &self,
-        readings: &Readings,
-        segment: &Segment,
-        outline: &[Point2],
-        settings: &PerceptionSettings,
-    ) -> bool {
-        let center = mean(readings, segment);
+    fn is_level_in_band(&self, readings: &Readings, segment: &Segment, settings: &PerceptionSettings) -> bool {
+        let heights_m = segment.points.iter().map(|&i| self.support.height_of(&readings.point(i)));
+        let height_m = heights_m.sum::<f64>() / segment.points.len() as f64;
         let level = segment.plane.normal.dot(&self.support.normal).abs() > settings.wall_tilt_rad.cos();
-        level
-            && self.support.height_of(&center).abs() < settings.base_band_m
-            && hull_contains(outline, &self.frame.to_plane(&center), settings.base_margin_m)
+        level && height_m.abs() < settings.base_band_m
     }
 }
 
-fn mean(readings: &Readings, segment: &Segment) -> crate::geometry::Vec3 {
-    let mut moments = Moments::default();
-    segment.points.iter().for_each(|&i| moments.add_point(&readings.point(i)));
-    moments.mean()
+/// Connected pixels (by their sides) of the band: a base and the floor outside never touch in the image.
+fn pixel_patches(band: &[bool], width: usize) -> Vec<Vec<u32>> {
+    let mut seen = vec![false; band.len()];
+    let mut patches = Vec::new();
+    for start in (0..band.len()).filter(|&i| band[i]) {
+        if seen[start] {
+            continue;
+        }
+        seen[start] = true;
+        let mut patch = vec![start as u32];
+        let mut next = 0;
+        while next < patch.len() {
+            let i = patch[next] as usize;
+            let (left, right) = (!i.is_multiple_of(width), i % width + 1 < width);
+            let around =
+                [(left, i.wrapping_sub(1)), (right, i + 1), (i >= width, i.wrapping_sub(width)), (true, i + width)];
+            for (_, j) in around.into_iter().filter(|&(inside, j)| inside && j < band.len()) {
+                if band[j] && !seen[j] {
+                    seen[j] = true;
+                    patch.push(j as u32);
+                }
+            }
+            next += 1;
+        }
+        patches.push(patch);
+    }
+    patches
 }
 
-/// Readings of all segments, sorted.
-fn claimed(segments: &[Segment]) -> Vec<u32> {
-    let mut all: Vec<u32> = segments.iter().flat_map(|s| s.points.iter().copied()).collect();
-    all.sort_unstable();
-    all
+/// Squares of the band, in order of their place.
+fn square_patches(readings: &Readings, band: &[bool], frame: &PlaneFrame) -> Vec<Vec<u32>> {
+    let square = |i: usize| {
+        let [a, b] = frame.to_plane(&readings.point(i as u32));
+        ((a / PATCH_M).floor() as i64, (b / PATCH_M).floor() as i64, i as u32)
+    };
+    let mut placed: Vec<_> = (0..band.len()).filter(|&i| band[i]).map(square).collect();
+    placed.sort_unstable();
+    let squares = placed.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1));
+    squares.map(|s| s.iter().map(|&(_, _, i)| i).collect()).collect()
 }
 
 fn polygon_area(hull: &[Point2]) -> f64 {

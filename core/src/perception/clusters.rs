@@ -54,10 +54,10 @@ pub fn clusters(readings: &Readings, things: &[u32], ground: &Ground, settings: 
 
 /// Cells as large as the gap that is bridged: at least the noise of the middle reading allows for.
 fn cell_size_m(readings: &Readings, things: &[u32], settings: &PerceptionSettings) -> f64 {
-    let mut ranges: Vec<f64> =
-        things.iter().step_by(1 + things.len() / 4096).map(|&i| readings.range_m(&readings.point(i))).collect();
-    ranges.sort_unstable_by(f64::total_cmp);
-    settings.cluster_gap_m.max(2.5 * settings.sigma_m(ranges[ranges.len() / 2]))
+    let sample = things.iter().step_by(1 + things.len() / 4096);
+    let mut sigmas: Vec<f64> = sample.map(|&i| readings.sigma_m(&readings.point(i))).collect();
+    sigmas.sort_unstable_by(f64::total_cmp);
+    settings.cluster_gap_m.max(2.5 * sigmas[sigmas.len() / 2])
 }
 
 fn merge_overlapping(

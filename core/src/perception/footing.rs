@@ -107,6 +107,23 @@ fn ring_share(footprint: &[Point2], cell_m: f64, ground: &HashSet<Cell2>) -> f64
     shown as f64 / ring.max(1) as f64
 }
 
+/// Number of sites behind the plane whose line of sight crosses it amid its own readings.
+pub fn seen_through(sites: &Sites, on: &[u32], plane: &Plane, viewpoint: &Vec3) -> usize {
+    let cell_m = sites.voxels.size_m;
+    let frame = PlaneFrame::new(plane, &sites.centers[on[0] as usize]);
+    let ground: HashSet<Cell2> =
+        on.iter().map(|&s| to_cell(&frame.to_plane(&sites.centers[s as usize]), cell_m)).collect();
+    let amid = |[x, y]: Cell2| (0..9).all(|step| ground.contains(&[x + step % 3 - 1, y + step / 3 - 1]));
+    let eye_m = plane.height_of(viewpoint);
+    let crosses = |s: usize| {
+        let height_m = plane.height_of(&sites.centers[s]);
+        let behind = height_m * eye_m.signum() < -3.0 * sites.tolerance_m[s];
+        let at = viewpoint + (sites.centers[s] - viewpoint) * (eye_m / (eye_m - height_m));
+        behind && amid(to_cell(&frame.to_plane(&at), cell_m))
+    };
+    (0..sites.len()).filter(|&s| crosses(s)).count()
+}
+
 fn free_cells(ground: &HashSet<Cell2>, outlines: &[Vec<Point2>], cell_m: f64) -> usize {
     let center = |c: &Cell2| [(f64::from(c[0]) + 0.5) * cell_m, (f64::from(c[1]) + 0.5) * cell_m];
     ground.iter().filter(|c| !outlines.iter().any(|hull| hull_contains(hull, &center(c), -cell_m))).count()

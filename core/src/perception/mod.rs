@@ -3,6 +3,8 @@
 mod base;
 mod clusters;
 mod components;
+mod crease;
+mod enclosure;
 mod footing;
 mod outline;
 mod perceive;
@@ -10,6 +12,7 @@ mod planes;
 mod ransac;
 mod readings;
 mod scene;
+mod scene_planes;
 mod settings;
 mod sites;
 mod support;

@@ -19,16 +19,17 @@ use std::time::Instant;
 /// `InputError` where the cloud has no finite reading, several directions could be up, or the support is seen from below.
 pub fn perceive(cloud: &CloudView, settings: &PerceptionSettings) -> Result<Scene> {
     let mut clock = Clock::start();
-    let readings = Readings::new(cloud, settings);
+    let mut readings = Readings::new(cloud, settings);
     let indices = readings.finite_indices()?;
-    let ground = find_ground(&readings, &indices, cloud.is_organized(), settings)?;
+    let ground = find_ground(&mut readings, &indices, cloud.is_organized(), settings)?;
     clock.lap("support");
     let things = readings_of_things(&readings, &indices, &ground, settings);
     let groups = clusters(&readings, &things, &ground, settings);
     clock.lap("clusters");
     let mut found = planes_of_groups(&readings, &groups, settings);
     clock.lap("planes");
-    add_bases(&readings, &indices, &ground, &mut found, settings);
+    let width = if cloud.is_organized() { cloud.width } else { 0 };
+    add_bases(&readings, &indices, width, &ground, &mut found, settings);
     let segments = outline_all(&readings, &found);
     clock.lap("rectangles");
     let Ground { up, support, warnings, .. } = ground;
@@ -43,12 +44,16 @@ fn planes_of_groups(readings: &Readings, groups: &[Vec<u32>], settings: &Percept
 fn add_bases(
     readings: &Readings,
     indices: &[u32],
+    width: usize,
     ground: &Ground,
     found: &mut [Vec<Segment>],
     settings: &PerceptionSettings,
 ) {
     let Some(support) = &ground.support else { return };
-    let band = SupportBand::new(readings, indices, support, settings);
+    let mut free = vec![false; readings.points.len()];
+    indices.iter().for_each(|&i| free[i as usize] = true);
+    found.iter().flatten().flat_map(|s| &s.points).for_each(|&i| free[i as usize] = false);
+    let band = SupportBand::new(readings, &free, width, support, settings);
     found.iter_mut().for_each(|segments| band.add_base(readings, segments, settings));
 }
 

@@ -1,6 +1,7 @@
 //! Planar segments of one cluster: sequential RANSAC over sites, then every reading to its nearest plane.
 
 use super::components::{components, NONE};
+use super::crease::fold;
 use super::ransac::PlaneSearch;
 use super::readings::Readings;
 use super::sites::Sites;
@@ -15,6 +16,8 @@ const READINGS_PER_SITE: f64 = 5.0;
 const SITE_SIZES_M: [f64; 6] = [0.008, 0.011, 0.015, 0.02, 0.028, 0.04];
 /// Rounds of "each reading to its nearest plane, each plane through its readings".
 const ROUNDS: usize = 3;
+/// Times that folded segments are looked for: a strip of four panels takes two.
+const FOLD_PASSES: usize = 2;
 /// Share of a cell's readings that makes a plane its owner.
 const OWNER_SHARE: f64 = 0.3;
 
@@ -46,13 +49,49 @@ pub fn planar_segments(readings: &Readings, cluster: &[u32], settings: &Percepti
     for (k, plane) in found.iter().enumerate() {
         plane.sites.iter().for_each(|&s| owner[s as usize] = k as u32);
     }
-    let mut segments = Vec::new();
-    for _ in 0..ROUNDS {
-        segments = assign(readings, &sites, &planes, &mut owner);
-        segments.iter().zip(&mut planes).for_each(|(s, p)| *p = s.plane);
+    let mut segments = settle(readings, &sites, &mut planes, &mut owner);
+    for _ in 0..FOLD_PASSES {
+        if fold_all(readings, &sites, &segments, &mut planes, &mut owner, settings) {
+            segments = settle(readings, &sites, &mut planes, &mut owner);
+        }
     }
     segments.retain(|s| is_segment(readings, s, settings));
     segments
+}
+
+/// Readings to planes and planes to readings, a few times over.
+fn settle(readings: &Readings, sites: &Sites, planes: &mut [Plane], owner: &mut [u32]) -> Vec<Segment> {
+    let mut segments = Vec::new();
+    for _ in 0..ROUNDS {
+        segments = assign(readings, sites, planes, owner);
+        segments.iter().zip(planes.iter_mut()).for_each(|(s, p)| *p = s.plane);
+    }
+    segments
+}
+
+/// Replaces the plane of each folded segment by two; whether there was one.
+fn fold_all(
+    readings: &Readings,
+    sites: &Sites,
+    segments: &[Segment],
+    planes: &mut Vec<Plane>,
+    owner: &mut [u32],
+    settings: &PerceptionSettings,
+) -> bool {
+    let before = planes.len();
+    for (k, segment) in segments.iter().enumerate() {
+        let Some([one, other]) = fold(readings, segment, settings) else { continue };
+        let new = planes.len() as u32;
+        let nearer = |s: usize| other.height_of(&sites.centers[s]).abs() < one.height_of(&sites.centers[s]).abs();
+        for (site, owner) in owner.iter_mut().enumerate().filter(|(_, o)| **o == k as u32) {
+            if nearer(site) {
+                *owner = new;
+            }
+        }
+        planes[k] = one;
+        planes.push(other);
+    }
+    planes.len() > before
 }
 
 /// Cells fine enough for small panels, coarse enough for several readings each.

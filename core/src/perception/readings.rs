@@ -15,11 +15,13 @@ pub struct Readings<'a> {
     pub points: &'a [[f32; 3]],
     pub viewpoint: Option<Vec3>,
     settings: &'a PerceptionSettings,
+    /// How much noisier the readings are than the settings say, at least 1.
+    noise_scale: f64,
 }
 
 impl<'a> Readings<'a> {
     pub fn new(cloud: &CloudView<'a>, settings: &'a PerceptionSettings) -> Self {
-        Self { points: cloud.points, viewpoint: cloud.viewpoint, settings }
+        Self { points: cloud.points, viewpoint: cloud.viewpoint, settings, noise_scale: 1.0 }
     }
 
     /// Indices of the readings, in input order.
@@ -48,6 +50,16 @@ impl<'a> Readings<'a> {
     }
 
     pub fn tolerance_m(&self, p: &Vec3) -> f64 {
-        self.settings.tolerance_m(self.range_m(p))
+        self.settings.tolerance_m(self.sigma_m(p))
+    }
+
+    /// Standard deviation of the reading, metres.
+    pub fn sigma_m(&self, p: &Vec3) -> f64 {
+        self.noise_scale * self.settings.sigma_m(self.range_m(p))
+    }
+
+    /// Takes the readings to be this many times noisier than the settings say.
+    pub fn scale_noise(&mut self, noise_scale: f64) {
+        self.noise_scale = noise_scale;
     }
 }

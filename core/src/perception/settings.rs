@@ -49,8 +49,12 @@ pub struct PerceptionSettings {
     pub base_margin_m: f64,
     /// Walls stand within this angle of upright.
     pub wall_tilt_rad: f64,
-    /// Walls whose lowest readings are higher than this enclose no base (a flap that hangs outside).
-    pub wall_foot_m: f64,
+    /// A segment is folded in two along a crease of at least this angle.
+    pub min_crease_rad: f64,
+    /// Either side of a crease reaches at least this far from it.
+    pub min_crease_side_m: f64,
+    /// The fold must leave less than this share of the flat fit's squared residuals.
+    pub max_crease_residual_share: f64,
 }
 
 impl Default for PerceptionSettings {
@@ -77,7 +81,9 @@ impl Default for PerceptionSettings {
             base_band_m: 0.02,
             base_margin_m: 0.012,
             wall_tilt_rad: 25f64.to_radians(),
-            wall_foot_m: 0.05,
+            min_crease_rad: 6f64.to_radians(),
+            min_crease_side_m: 0.025,
+            max_crease_residual_share: 0.85,
         }
     }
 }
@@ -97,8 +103,8 @@ impl PerceptionSettings {
         self.sigma_floor_m + self.sigma_at_1m_m * range_m * range_m
     }
 
-    /// Largest distance from a plane of a reading that belongs to it, metres, at this range.
-    pub fn tolerance_m(&self, range_m: f64) -> f64 {
-        self.tolerance_floor_m + self.tolerance_sigmas * self.sigma_m(range_m)
+    /// Largest distance from a plane of a reading that belongs to it, metres, given its standard deviation.
+    pub fn tolerance_m(&self, sigma_m: f64) -> f64 {
+        self.tolerance_floor_m + self.tolerance_sigmas * sigma_m
     }
 }

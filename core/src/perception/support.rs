@@ -1,21 +1,12 @@
 //! Which way is up, and on which plane the things stand.
 
-use super::footing::{footing, Footing};
-use super::ransac::{PlaneSearch, SitePlane};
+use super::footing::{footing, seen_through, Footing};
 use super::readings::Readings;
-use super::sites::Sites;
+use super::scene_planes::ScenePlanes;
 use super::PerceptionSettings;
 use crate::error::{InputError, Result};
-use crate::geometry::{minimum_rectangle, Moments, Plane, PlaneFrame, Vec3};
+use crate::geometry::{Plane, Vec3};
 
-/// Planes of the scene that are looked at.
-const MAX_SCENE_PLANES: usize = 14;
-/// A plane of the scene covers at least this.
-const MIN_SCENE_PLANE_M2: f64 = 0.02;
-/// How far from the first cell of a triple the other two may lie, metres.
-const SCENE_REACH_M: f64 = 0.25;
-/// Cells of the scene, at most.
-const MAX_SCENE_SITES: usize = 60_000;
 /// A plane of which less is free is the bottom of a container, not the ground around one.
 const MIN_FREE_SHARE: f64 = 0.2;
 /// Planes that bear less than this share of the best one's things are out.
@@ -24,10 +15,14 @@ const MIN_STANDING_SHARE: f64 = 0.4;
 const MIN_STANDING: f64 = 8.0;
 /// Worth of a plane that would mean the camera hangs upside down.
 const UPSIDE_DOWN_PRIOR: f64 = 0.35;
+/// Of all cells, the share that may lie behind the support's own readings (seen through a hole or past an edge).
+const MAX_THROUGH_SHARE: f64 = 0.25;
 /// Two planes with no thing on them are both plausible where the lesser has this share of the other's worth.
 const RIVAL_SHARE: f64 = 0.5;
 /// How strongly upright surroundings speak for a plane on which nothing stands.
 const CONTAINER_POWER: i32 = 4;
+/// Things tell the side of a plane where they have this share of its cells.
+const CLEARLY_ONE_SIDED: f64 = 0.2;
 /// The origin tells the side of a plane from this distance, metres.
 const CLEARLY_OFF_M: f64 = 0.2;
 
@@ -47,63 +42,29 @@ pub struct Ground {
 /// # Errors
 /// `InputError` where several directions are plausible, or the support is seen from below.
 pub fn find_ground(
-    readings: &Readings,
+    readings: &mut Readings,
     indices: &[u32],
     organized: bool,
     settings: &PerceptionSettings,
 ) -> Result<Ground> {
-    let sites = Sites::new(readings, indices, settings.scene_cell_m, MAX_SCENE_SITES);
-    let planes = scene_planes(&sites, settings);
-    let is_large: Vec<bool> = planes.iter().map(|p| longest_side(&sites, p) > settings.largest_thing_m).collect();
-    let room_sites = mark_sites(&sites, &planes, &is_large);
-    let candidates = footings(&sites, settings, &planes, &room_sites, readings.viewpoint.as_ref());
+    let scene = ScenePlanes::find(readings, indices, settings);
+    let candidates = footings(&scene, settings, readings.viewpoint.as_ref());
     let Some((chosen, footing)) = choose(&candidates, organized, settings, readings.viewpoint.is_some())? else {
         return Ok(no_plane(organized, settings));
     };
-    let plane = refit(readings, &sites, &planes[chosen], &footing.plane);
-    refuse_from_below(readings, &footing, &planes[chosen])?;
+    let plane = scene.refit(readings, chosen, &footing.plane);
+    refuse_from_below(readings, &scene, chosen, &plane)?;
     let is_ground = footing.free_cells as f64 >= MIN_FREE_SHARE * footing.ground_cells as f64;
-    let room = (0..planes.len()).filter(|&p| p != chosen && is_large[p]).map(|p| planes[p].plane).collect();
+    let is_room = |&p: &usize| p != chosen && scene.is_large[p];
+    let room = (0..scene.planes.len()).filter(is_room).map(|p| scene.planes[p].plane).collect();
     Ok(Ground { up: plane.normal, support: is_ground.then_some(plane), room, warnings: vec![] })
 }
 
-fn scene_planes(sites: &Sites, settings: &PerceptionSettings) -> Vec<SitePlane> {
-    let search = PlaneSearch {
-        sites,
-        settings,
-        reach_m: SCENE_REACH_M,
-        worth: vec![1.0; sites.len()],
-        min_worth: (MIN_SCENE_PLANE_M2 / sites.voxels.size_m.powi(2)).max(6.0),
-        max_planes: MAX_SCENE_PLANES,
-        seed: 1,
-    };
-    search.run()
-}
-
-fn longest_side(sites: &Sites, plane: &SitePlane) -> f64 {
-    let frame = PlaneFrame::new(&plane.plane, &sites.centers[plane.sites[0] as usize]);
-    let footprint: Vec<_> = plane.sites.iter().map(|&s| frame.to_plane(&sites.centers[s as usize])).collect();
-    minimum_rectangle(&footprint).map_or(0.0, |r| r.size()[0].max(r.size()[1]))
-}
-
-fn mark_sites(sites: &Sites, planes: &[SitePlane], wanted: &[bool]) -> Vec<bool> {
-    let mut marked = vec![false; sites.len()];
-    for plane in planes.iter().zip(wanted).filter(|(_, &w)| w).map(|(p, _)| p) {
-        plane.sites.iter().for_each(|&s| marked[s as usize] = true);
-    }
-    marked
-}
-
 /// Every plane with every upward direction that is possible: towards the viewpoint, within reach of a given `up`, else both.
-fn footings(
-    sites: &Sites,
-    settings: &PerceptionSettings,
-    planes: &[SitePlane],
-    room_sites: &[bool],
-    viewpoint: Option<&Vec3>,
-) -> Vec<(usize, Footing)> {
+fn footings(scene: &ScenePlanes, settings: &PerceptionSettings, viewpoint: Option<&Vec3>) -> Vec<(usize, Footing)> {
+    let room_sites = scene.room_sites();
     let mut all = Vec::new();
-    for (index, found) in planes.iter().enumerate() {
+    for (index, found) in scene.planes.iter().enumerate() {
         for plane in [found.plane, found.plane.flipped()] {
             let seen = viewpoint.is_none_or(|v| plane.height_of(v) > 0.0);
             let wanted = match settings.up {
@@ -111,7 +72,7 @@ fn footings(
                 None => seen,
             };
             if wanted {
-                all.push((index, footing(sites, settings, plane, &found.sites, room_sites)));
+                all.push((index, footing(&scene.sites, settings, plane, &found.sites, &room_sites)));
             }
         }
     }
@@ -167,13 +128,14 @@ fn prior(footing: &Footing, organized: bool) -> f64 {
 fn side_worth(footing: &Footing) -> f64 {
     let things = (footing.above as f64 - footing.below as f64) / footing.ground_cells.max(1) as f64;
     let origin_m = -footing.plane.distance;
-    if things.abs() > 0.05 {
-        1.0 + things.signum() * 0.9
+    let side = if things.abs() > CLEARLY_ONE_SIDED {
+        things.signum()
     } else if origin_m.abs() > CLEARLY_OFF_M {
-        1.0 + origin_m.signum() * 0.9
+        origin_m.signum()
     } else {
-        1.0 + footing.plane.normal.z * 0.9
-    }
+        footing.plane.normal.z
+    };
+    1.0 + 0.9 * side
 }
 
 fn refuse_rivals(
@@ -192,30 +154,11 @@ fn refuse_rivals(
     Ok(())
 }
 
-/// Least squares over the readings near the plane, not whole cells.
-fn refit(readings: &Readings, sites: &Sites, found: &SitePlane, oriented: &Plane) -> Plane {
-    let mut plane = *oriented;
-    for _ in 0..2 {
-        let mut moments = Moments::default();
-        for &s in &found.sites {
-            for &i in sites.voxels.members_of(s as usize) {
-                let p = readings.point(i);
-                if plane.height_of(&p).abs() <= readings.tolerance_m(&p) {
-                    moments.add_point(&p);
-                }
-            }
-        }
-        if let Some((fitted, _)) = moments.fit_plane() {
-            plane = if fitted.normal.dot(&plane.normal) < 0.0 { fitted.flipped() } else { fitted };
-        }
-    }
-    plane
-}
-
 /// Refuses a support that the sensor would have had to see through: more lies behind its readings than before them.
-fn refuse_from_below(readings: &Readings, footing: &Footing, found: &SitePlane) -> Result<()> {
+fn refuse_from_below(readings: &Readings, scene: &ScenePlanes, chosen: usize, plane: &Plane) -> Result<()> {
     let Some(viewpoint) = readings.viewpoint else { return Ok(()) };
-    if footing.plane.height_of(&viewpoint) > 0.0 && footing.below <= footing.above.max(found.sites.len() / 4) {
+    let through = seen_through(&scene.sites, &scene.planes[chosen].sites, plane, &viewpoint);
+    if plane.height_of(&viewpoint) > 0.0 && (through as f64) < MAX_THROUGH_SHARE * scene.sites.len() as f64 {
         return Ok(());
     }
     Err(InputError::new("the support plane's visible face looks away from the viewpoint")

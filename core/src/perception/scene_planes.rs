@@ -1,0 +1,109 @@
+use super::ransac::{PlaneSearch, SitePlane};
+use super::readings::Readings;
+use super::sites::Sites;
+use super::PerceptionSettings;
+use crate::geometry::{minimum_rectangle, Moments, Plane, PlaneFrame};
+
+/// Planes of the scene that are looked at.
+const MAX_SCENE_PLANES: usize = 14;
+/// A plane of the scene covers at least this.
+const MIN_SCENE_PLANE_M2: f64 = 0.02;
+/// How far from the first cell of a triple the other two may lie, metres.
+const SCENE_REACH_M: f64 = 0.25;
+/// Cells of the scene, at most.
+const MAX_SCENE_SITES: usize = 60_000;
+/// Noise below this many times the expected is as expected.
+const AS_EXPECTED: f64 = 1.5;
+/// Noise is taken to be at most this many times the expected.
+const MAX_NOISE_SCALE: f64 = 8.0;
+/// Median of the absolute value of a standard normal variable.
+const NORMAL_MEDIAN: f64 = 0.6745;
+
+/// The larger planes of a whole scene, on coarse sites.
+pub struct ScenePlanes {
+    pub sites: Sites,
+    pub planes: Vec<SitePlane>,
+    /// Whether each plane is too large to be a thing's.
+    pub is_large: Vec<bool>,
+}
+
+impl ScenePlanes {
+    /// Finds them, and how noisy the readings are: where the largest plane's scatter more than the settings say, their
+    /// noise is taken to be that much larger and the search begins anew.
+    pub fn find(readings: &mut Readings, indices: &[u32], settings: &PerceptionSettings) -> Self {
+        let mut scale = 1.0;
+        loop {
+            let scene = Self::find_once(readings, indices, settings);
+            let more = scene.excess_noise(readings);
+            if more < AS_EXPECTED || scale >= MAX_NOISE_SCALE {
+                return scene;
+            }
+            scale = (scale * more).min(MAX_NOISE_SCALE);
+            readings.scale_noise(scale);
+        }
+    }
+
+    fn find_once(readings: &Readings, indices: &[u32], settings: &PerceptionSettings) -> Self {
+        let sites = Sites::new(readings, indices, settings.scene_cell_m, MAX_SCENE_SITES);
+        let search = PlaneSearch {
+            sites: &sites,
+            settings,
+            reach_m: SCENE_REACH_M,
+            worth: vec![1.0; sites.len()],
+            min_worth: (MIN_SCENE_PLANE_M2 / sites.voxels.size_m.powi(2)).max(6.0),
+            max_planes: MAX_SCENE_PLANES,
+            seed: 1,
+        };
+        let planes = search.run();
+        let is_large = planes.iter().map(|p| longest_side(&sites, p) > settings.largest_thing_m).collect();
+        Self { sites, planes, is_large }
+    }
+
+    /// Of each site, whether it lies on a plane too large to be a thing's.
+    pub fn room_sites(&self) -> Vec<bool> {
+        let mut marked = vec![false; self.sites.len()];
+        let large = self.planes.iter().zip(&self.is_large).filter(|(_, &l)| l);
+        large.flat_map(|(p, _)| &p.sites).for_each(|&s| marked[s as usize] = true);
+        marked
+    }
+
+    /// Least squares over a plane's readings within tolerance, not whole cells; the normal keeps its side.
+    pub fn refit(&self, readings: &Readings, found: usize, oriented: &Plane) -> Plane {
+        let mut plane = *oriented;
+        for _ in 0..2 {
+            let mut moments = Moments::default();
+            for &s in &self.planes[found].sites {
+                let points = self.sites.voxels.members_of(s as usize).iter().map(|&i| readings.point(i));
+                let near = points.filter(|p| plane.height_of(p).abs() <= readings.tolerance_m(p));
+                near.for_each(|p| moments.add_point(&p));
+            }
+            if let Some((fitted, _)) = moments.fit_plane() {
+                plane = if fitted.normal.dot(&plane.normal) < 0.0 { fitted.flipped() } else { fitted };
+            }
+        }
+        plane
+    }
+
+    /// Scatter of the readings in and around the largest plane's cells, in units of the expected.
+    fn excess_noise(&self, readings: &Readings) -> f64 {
+        let Some(largest) = self.planes.iter().reduce(|a, b| if b.sites.len() > a.sites.len() { b } else { a }) else {
+            return 1.0;
+        };
+        let mut near = vec![false; self.sites.len()];
+        for &s in &largest.sites {
+            near[s as usize] = true;
+            self.sites.neighbours.of(s as usize).iter().for_each(|&n| near[n as usize] = true);
+        }
+        let cells = (0..near.len()).filter(|&s| near[s]);
+        let points = cells.flat_map(|s| self.sites.voxels.members_of(s)).map(|&i| readings.point(i));
+        let mut scatter: Vec<f64> = points.map(|p| largest.plane.height_of(&p).abs() / readings.sigma_m(&p)).collect();
+        let middle = scatter.len() / 2;
+        *scatter.select_nth_unstable_by(middle, f64::total_cmp).1 / NORMAL_MEDIAN
+    }
+}
+
+fn longest_side(sites: &Sites, plane: &SitePlane) -> f64 {
+    let frame = PlaneFrame::new(&plane.plane, &sites.centers[plane.sites[0] as usize]);
+    let footprint: Vec<_> = plane.sites.iter().map(|&s| frame.to_plane(&sites.centers[s as usize])).collect();
+    minimum_rectangle(&footprint).map_or(0.0, |r| r.size()[0].max(r.size()[1]))
+}
