@@ -2,9 +2,9 @@
 
     python benchmarks/planes_recall.py SET... [--list-missed] [--json OUT]
 
-SET is a folder of NAME.pcd, NAME.truth.json, NAME.labels.npz. A panel counts from 500 readings on; it is found where one
-segment's readings and its own have an intersection over union of at least 0.5. Precision: of the segments that lie mostly
-on labelled panels, the share that finds one. A box is whole where all panels found are in one group.
+SET is a folder of NAME.pcd, NAME.truth.json, NAME.labels.npz. A panel counts from 500 readings on; it is found where
+one segment's readings and its own have an intersection over union of at least 0.5. Precision: of the segments that lie
+mostly on labelled panels, the share that finds one. A box is whole where all panels found are in one group.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-import boxwright
+from boxwright.io.clouds import read_cloud
 from boxwright.io.truth import load_truth, read_truth_labels
 from boxwright.perception import Perception, perceive
 from boxwright.types import Truth
@@ -96,7 +96,7 @@ def frames(folder: Path) -> Iterator[Frame]:
     for path in sorted(folder.glob("*.truth.json")):
         name = path.name.removesuffix(".truth.json")
         truth = load_truth(path)
-        cloud = boxwright.read_cloud(folder / f"{name}.pcd")
+        cloud = read_cloud(folder / f"{name}.pcd")
         labels = read_truth_labels(folder / f"{name}.labels.npz").astype(np.int64)
         start = time.perf_counter()
         try:
@@ -129,20 +129,15 @@ def report(judged: list[Frame], list_missed: bool) -> None:
     print(
         f"boxes whole: {boxes - split} of {boxes}; segments off the panels: {sum(f.clutter_segments for f in judged)}"
     )
+    seconds = [f.seconds for f in judged]
     worst = max(judged, key=lambda f: f.up_error_deg)
     wrong = sum(f.up_error_deg > 1.5 for f in judged)
-    print(
-        f"up: {wrong} of {len(judged)} frames off by more than 1.5 deg, worst {worst.up_error_deg:.2f} deg ({worst.name})"
-    )
-    print(
-        f"seconds a frame: median {np.median([f.seconds for f in judged]):.3f}, worst {max(f.seconds for f in judged):.3f}"
-    )
+    print(f"up: {wrong} of {len(judged)} frames off by > 1.5 deg, worst {worst.up_error_deg:.2f} deg ({worst.name})")
+    print(f"seconds a frame: median {np.median(seconds):.3f}, worst {max(seconds):.3f}")
     for frame in judged if list_missed else []:
         for name, size, iou, covered in frame.panels:
             if iou < MIN_IOU:
-                print(
-                    f"missed: {frame.name:<24}{name:<12}{size:>7} readings, best IoU {iou:.2f}, in segments {covered:.2f}"
-                )
+                print(f"missed: {frame.name:<24}{name:<12}{size:>7} readings, IoU {iou:.2f}, in segments {covered:.2f}")
 
 
 def main() -> None:

@@ -9,8 +9,8 @@ use crate::geometry::{convex_hull, Moments, Plane, PlaneFrame, Point2};
 /// Upright segments without which nothing is enclosed.
 const MIN_WALLS: usize = 2;
 /// Side of a patch of an unorganized cloud's band, metres.
-const PATCH_M: f64 = 0.03;
-/// Pieces of the band below this many readings are no base.
+const PATCH_M: f64 = 0.012;
+/// Connected pixels below this number are strays.
 const MIN_PATCH_POINTS: usize = 12;
 
 /// Readings at the support's height, in patches that hang together, gathered once for all groups.
@@ -36,8 +36,7 @@ impl SupportBand {
         let band: Vec<bool> = (0..free.len()).map(in_band).collect();
         let origin = band.iter().position(|&b| b).map_or_else(Default::default, |i| readings.point(i as u32));
         let frame = PlaneFrame::new(support, &origin);
-        let mut patches = if width > 0 { pixel_patches(&band, width) } else { square_patches(readings, &band, &frame) };
-        patches.retain(|p| p.len() >= MIN_PATCH_POINTS);
+        let patches = if width > 0 { pixel_patches(&band, width) } else { square_patches(readings, &band, &frame) };
         Self { support: *support, frame, patches }
     }
 
@@ -116,7 +115,9 @@ fn pixel_patches(band: &[bool], width: usize) -> Vec<Vec<u32>> {
             }
             next += 1;
         }
-        patches.push(patch);
+        if patch.len() >= MIN_PATCH_POINTS {
+            patches.push(patch);
+        }
     }
     patches
 }

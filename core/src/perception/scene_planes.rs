@@ -2,7 +2,7 @@ use super::ransac::{PlaneSearch, SitePlane};
 use super::readings::Readings;
 use super::sites::Sites;
 use super::PerceptionSettings;
-use crate::geometry::{minimum_rectangle, Moments, Plane, PlaneFrame};
+use crate::geometry::{minimum_rectangle, Moments, Plane, PlaneFrame, Vec3};
 
 /// Planes of the scene that are looked at.
 const MAX_SCENE_PLANES: usize = 14;
@@ -16,6 +16,8 @@ const MAX_SCENE_SITES: usize = 60_000;
 const AS_EXPECTED: f64 = 1.5;
 /// Noise is taken to be at most this many times the expected.
 const MAX_NOISE_SCALE: f64 = 8.0;
+/// Rank of the typical cell among the largest plane's.
+const TYPICAL_CELL: f64 = 0.4;
 /// Median of the absolute value of a standard normal variable.
 const NORMAL_MEDIAN: f64 = 0.6745;
 
@@ -84,21 +86,37 @@ impl ScenePlanes {
         plane
     }
 
-    /// Scatter of the readings in and around the largest plane's cells, in units of the expected.
+    /// Scatter of the readings over and under the largest plane's cells, in units of the expected.
+    ///
+    /// The typical cell's median: what stands on the plane or at its border spoils the fewer cells.
     fn excess_noise(&self, readings: &Readings) -> f64 {
         let Some(largest) = self.planes.iter().reduce(|a, b| if b.sites.len() > a.sites.len() { b } else { a }) else {
             return 1.0;
         };
-        let mut near = vec![false; self.sites.len()];
-        for &s in &largest.sites {
-            near[s as usize] = true;
-            self.sites.neighbours.of(s as usize).iter().for_each(|&n| near[n as usize] = true);
-        }
-        let cells = (0..near.len()).filter(|&s| near[s]);
+        let mut medians: Vec<f64> =
+            largest.sites.iter().map(|&s| self.cell_scatter(readings, &largest.plane, s as usize)).collect();
+        quantile(&mut medians, TYPICAL_CELL) / NORMAL_MEDIAN
+    }
+
+    /// Median height of the readings over and under a cell, without sign, in standard deviations.
+    fn cell_scatter(&self, readings: &Readings, plane: &Plane, site: usize) -> f64 {
+        let (center, radius_m) = (self.sites.centers[site], 0.5 * self.sites.voxels.size_m);
+        let cells = self.sites.neighbours.of(site).iter().map(|&n| n as usize).chain([site]);
         let points = cells.flat_map(|s| self.sites.voxels.members_of(s)).map(|&i| readings.point(i));
-        let mut scatter: Vec<f64> = points.map(|p| largest.plane.height_of(&p).abs() / readings.sigma_m(&p)).collect();
-        let middle = scatter.len() / 2;
-        *scatter.select_nth_unstable_by(middle, f64::total_cmp).1 / NORMAL_MEDIAN
+        let beside = |p: &Vec3| (p - center - plane.normal * plane.normal.dot(&(p - center))).norm() <= radius_m;
+        let mut scatter: Vec<f64> =
+            points.filter(beside).map(|p| plane.height_of(&p).abs() / readings.sigma_m(&p)).collect();
+        quantile(&mut scatter, 0.5)
+    }
+}
+
+/// The value below which this share lies; 0 of none.
+fn quantile(values: &mut [f64], share: f64) -> f64 {
+    let place = (values.len() as f64 * share) as usize;
+    if place < values.len() {
+        *values.select_nth_unstable_by(place, f64::total_cmp).1
+    } else {
+        0.0
     }
 }
 
