@@ -1,0 +1,100 @@
+"""`boxwright train`: weights of a template from labelled frames."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from boxwright.cli.options import JobsOption, JsonOption
+
+if TYPE_CHECKING:
+    from boxwright.evaluation import SetEntry
+    from boxwright.learning import SeenFrame
+
+
+def train(
+    folders: Annotated[list[Path], typer.Argument(metavar="SET...", help="Folders of labelled frames.")],
+    template: Annotated[
+        str, typer.Option("--template", metavar="NAME|FILE.toml", help="Template whose weights are learned.")
+    ],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="Weights file to write.")],
+    category: Annotated[
+        list[str] | None,
+        typer.Option("--category", help="Learn from frames of this category alone; repeatable. Default: all."),
+    ] = None,
+    jobs: JobsOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Learn a template's weights by the paper's regularized normal equations; the regularizer by leave-one-out.
+
+    Frames that cannot be used are told on standard error and left out. Same frames, same weights.
+
+    [bold]Examples[/]
+
+    boxwright synth train_set --count 120 --seed 1
+
+    boxwright train train_set --template carton -o carton.json
+
+    boxwright infer frame.pcd -o out --template carton --weights carton.json
+    """
+    import shlex
+    import sys
+
+    from boxwright.cli.train_report import print_json, print_learned
+    from boxwright.learning import train as learn
+    from boxwright.models import load_template
+
+    loaded = load_template(template)
+    frames, refused = _see(folders, category, jobs)
+    command = shlex.join(["boxwright", *sys.argv[1:]])
+    learned = learn(loaded, frames, command=command, progress=lambda line: print(line, file=sys.stderr, flush=True))
+    learned.save(output)
+    if as_json:
+        print_json(learned)
+    else:
+        print_learned(learned, output)
+    if refused:
+        raise typer.Exit(1)
+
+
+def _see(folders: list[Path], categories: list[str] | None, jobs: int | None) -> tuple[list[SeenFrame], int]:
+    """The frames of all sets after perception, and how many could not be used."""
+    from boxwright.cli.failures import tell
+    from boxwright.cli.screen import progress
+    from boxwright.evaluation import list_set
+    from boxwright.parallel import ordered_map, processors
+
+    entries = [entry for folder in folders for entry in list_set(folder)]
+    seen = ordered_map(lambda entry: _look(entry, categories), entries, jobs or processors())
+    frames, refused = [], 0
+    for entry, frame in zip(entries, progress(seen, len(entries), "perception"), strict=True):
+        if isinstance(frame, (ValueError, OSError)):
+            refused += 1
+            tell(frame, entry.cloud_path)
+        elif frame is not None:
+            frames.append(frame)
+    return frames, refused
+
+
+def _look(entry: SetEntry, categories: list[str] | None) -> SeenFrame | ValueError | OSError | None:
+    """One frame after perception; None where its category is not asked for, the error where it cannot be used."""
+    from boxwright.evaluation import read_entry
+    from boxwright.io.clouds import read_cloud
+    from boxwright.learning import SeenFrame
+    from boxwright.perception import perceive
+
+    try:
+        labelled = read_entry(entry)
+        if categories and labelled.truth.category not in categories:
+            return None
+        perception = perceive(read_cloud(entry.cloud_path))
+        if len(perception.labels) != len(labelled.labels):
+            count, points = len(labelled.labels), len(perception.labels)
+            raise ValueError(
+                f"{entry.labels_path}: labels: has {count}; must be as many as the cloud's {points} points"
+            )
+    except (ValueError, OSError) as error:
+        return error
+    return SeenFrame(entry.name, perception, labelled.truth, labelled.labels)
