@@ -7,13 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from boxwright.simulation.boxes import Flap, OpenBox, Tuck
-from boxwright.simulation.meshes import shell
+from boxwright.simulation.meshes import sheet, shell
 
 Array = NDArray[np.float64]
 
 UP = np.array([0.0, 0.0, 1.0])
 SIDE_CELLS = (6, 4)
 FLAP_CELLS = 6
+CREASE_CELLS = 8
 BASE_GAP_M = 0.0004
 """The base ends this far from the sides' inner faces, so that a dented side does not touch it."""
 
@@ -136,4 +137,11 @@ def _strip(
     shrink = share[:, None] * along
     middle = np.stack([hinge[0] + path + taper[0] * shrink, hinge[1] + path - taper[1] * shrink])
     half_board = board_m / 2 * _direction(inward, tangent_rad + np.pi / 2)
-    return shell(middle + half_board, middle - half_board), middle[:, -1]
+    triangles = np.concatenate([shell(middle + half_board, middle - half_board), _crease(hinge, inward, board_m / 2)])
+    return triangles, middle[:, -1]
+
+
+def _crease(hinge: Array, inward: Array, radius_m: float) -> Array:
+    """The rounding where a board is folded: without it two boards at an angle leave an open wedge along the hinge."""
+    around = radius_m * _direction(inward, np.linspace(0.0, 2 * np.pi, CREASE_CELLS + 1))
+    return sheet(hinge[:, None] + around)

@@ -45,8 +45,10 @@ def write_frames(
 
     A set can be made longer later: frame i is the same however many are asked for.
 
-    Raises ValueError for a category that is not known, OSError when a file cannot be written.
+    Raises ValueError for a category that is not known or none at all, OSError when a file cannot be written.
     """
+    if not categories:
+        raise ValueError(f"categories is empty; must name one or more of {', '.join(CATEGORIES)}, none")
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
 

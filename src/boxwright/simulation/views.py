@@ -10,8 +10,14 @@ from boxwright.types import Camera
 
 Rng = np.random.Generator
 
-DISTANCES_M = {"small": (0.7, 1.2), "carton": (0.8, 1.5), "cake": (0.75, 1.6), "pizza": (0.9, 1.7), "none": (0.8, 1.8)}
-FAR_M = (1.1, 1.9)
+DISTANCES_M = {
+    "small": (0.7, 1.1),
+    "carton": (0.75, 1.35),
+    "cake": (0.75, 1.4),
+    "pizza": (0.85, 1.6),
+    "none": (0.8, 1.8),
+}
+FAR_M = (1.1, 1.8)
 """For the larger boxes."""
 FARTHEST_M = 2.3
 """Beyond this, what does not fit in the frame is cut by it."""
@@ -35,11 +41,11 @@ def look_at(target_m: Array, azimuth_rad: float, elevation_rad: float, distance_
 def draw_view(rng: Rng, category: str, content: Array, camera: Camera) -> tuple[Array, float]:
     """camera_from_world, and the heading (rad, world) in which it looks; `content` (N, 3) should be in the frame.
 
-    Elevations 20-90 degrees; one frame in nine looks straight down, at any roll; one in twelve is cut by its edge.
+    Elevations 20-90 degrees; one frame in eleven looks straight down, at any roll; one in twelve is cut by its edge.
     """
     azimuth = rng.uniform(0, 2 * np.pi)
-    is_down = rng.random() < 0.11
-    elevation = np.radians(rng.uniform(84, 90) if is_down else 20 + 65 * rng.beta(1.35, 1.6))
+    is_down = rng.random() < 0.09
+    elevation = np.radians(rng.uniform(84, 90) if is_down else 20 + 65 * rng.beta(1.2, 1.8))
     roll = rng.uniform(0, 2 * np.pi) if is_down else np.radians(rng.normal(0, 2.0))
     distance = rng.uniform(*DISTANCES_M.get(category, FAR_M))
     middle = (content.min(axis=0) + content.max(axis=0)) / 2
