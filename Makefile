@@ -1,32 +1,85 @@
 # Two commands for a stranger: `make demo` and `make test`. Each sets up what it needs inside this folder.
+# Needs a C compiler, cargo (Rust 1.85 or newer) and Python 3.11 or newer; `make help` lists the targets.
 PYTHON ?= python3
+SECONDS ?= 60
+
 VENV := .venv
 BIN := $(VENV)/bin
-RUST_SOURCES := $(shell find core/src sensor/src bindings/src -name '*.rs') Cargo.toml core/Cargo.toml sensor/Cargo.toml bindings/Cargo.toml
+DIST_VENV := target/dist-venv
+RUST_SOURCES := $(shell find core/src sensor/src bindings/src -name '*.rs') \
+	Cargo.toml Cargo.lock core/Cargo.toml sensor/Cargo.toml bindings/Cargo.toml
+FUZZ_TARGETS = $(basename $(notdir $(wildcard core/fuzz/fuzz_targets/*.rs)))
 
-.PHONY: setup test check schemas
+# A failure left of a pipe is a failure.
+SHELL := bash
+.SHELLFLAGS := -eu -o pipefail -c
 
-setup: $(VENV)/.built
+.PHONY: help tools setup demo test check bench dist fuzz lock schemas
 
-$(VENV)/.installed: requirements/dev.lock
+help: ## This list
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
+
+tools:
+	@command -v cargo >/dev/null || { echo "make: cargo is missing; install Rust 1.85 or newer (https://rustup.rs)" >&2; exit 1; }
+	@command -v cc >/dev/null || { echo "make: a C compiler (cc) is missing; on Debian: apt-get install build-essential" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
+	{ echo "make: $(PYTHON) is not Python 3.11 or newer; name one that is: make PYTHON=python3.12" >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || \
+	{ echo "make: $(PYTHON) cannot make virtual environments; on Debian: apt-get install python3-venv" >&2; exit 1; }
+
+setup: $(VENV)/.built ## Make .venv with the locked tools, and build the core into it
+
+$(VENV)/.installed: requirements/dev.lock | tools
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --requirement requirements/dev.lock
-	touch $@
+	@touch $@
 
-$(VENV)/.built: $(VENV)/.installed $(RUST_SOURCES) pyproject.toml
+$(VENV)/.built: $(VENV)/.installed $(RUST_SOURCES) pyproject.toml | tools
 	VIRTUAL_ENV=$(abspath $(VENV)) $(BIN)/maturin develop --release --quiet
-	touch $@
+	@touch $@
 
-test: setup
-	cargo test --workspace
-	$(BIN)/pytest
+demo: setup ## Make a frame, infer its boxes, write everything to out/demo
+	$(BIN)/boxwright demo -o out/demo
 
-check: setup
+test: setup ## All tests, Rust and Python, and how many they were
+	@mkdir -p target
+	cargo test --workspace 2>&1 | tee target/test-rust.log
+	$(BIN)/pytest 2>&1 | tee target/test-python.log
+	@awk '/^test result:/ { passed += $$4; failed += $$6; ignored += $$8 } \
+	END { printf "Rust tests: %d passed, %d failed, %d ignored\n", passed, failed, ignored; exit passed == 0 }' target/test-rust.log
+	@echo "Python tests: $$(grep -E '[0-9]+ passed' target/test-python.log | tail -n 1)"
+
+check: setup ## Format, lints and types; changes nothing
 	cargo fmt --check
 	cargo clippy --workspace --all-targets -- -D warnings
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-schemas: setup
+bench: setup ## Time by stage and peak memory from cloud to model, one thread
+	$(BIN)/python benchmarks/bench.py
+
+dist: $(VENV)/.installed | tools ## One wheel for Python 3.11 and newer in dist/, installed and tried in a fresh environment
+	rm -rf dist $(DIST_VENV)
+	$(BIN)/maturin build --release --quiet --out dist
+	@ls dist/*-cp311-abi3-*.whl >/dev/null
+	$(PYTHON) -m venv $(DIST_VENV)
+	$(DIST_VENV)/bin/pip install --quiet --constraint requirements/dev.lock dist/*.whl
+	cd $(DIST_VENV) && bin/boxwright --help >/dev/null && bin/python -c 'import boxwright._core'
+	@echo "dist: $$(ls dist) ($$(du -h dist/*.whl | cut -f 1)) installs and runs"
+
+fuzz: ## Each reader's fuzz target for SECONDS (needs nightly Rust and cargo-fuzz)
+	@test -n "$(FUZZ_TARGETS)" || { echo "make: no fuzz target in core/fuzz/fuzz_targets" >&2; exit 1; }
+	@cargo fuzz --version >/dev/null 2>&1 || { echo "make: cargo-fuzz is missing; cargo install cargo-fuzz --locked" >&2; exit 1; }
+	cd core && for target in $(FUZZ_TARGETS); do \
+		mkdir -p fuzz/corpus/$$target; \
+		cargo +nightly fuzz run $$target fuzz/corpus/$$target $$(ls -d fuzz/seeds/$$target 2>/dev/null) -- -max_total_time=$(SECONDS); \
+	done
+
+lock: $(VENV)/.installed ## Lock the versions of requirements/dev.in anew
+	$(BIN)/pip install --quiet uv
+	$(BIN)/uv pip compile -q --no-header --no-annotate --no-emit-index-url --no-emit-find-links --universal \
+		--python-version 3.11 requirements/dev.in -o requirements/dev.lock
+
+schemas: setup ## Write docs/schemas anew from the types
 	$(BIN)/python -m boxwright.io.schemas docs/schemas
