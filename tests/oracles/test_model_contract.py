@@ -42,7 +42,7 @@ def answers(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[Frame, Infer
     )
     path = tmp_path_factory.mktemp("weights") / "carton.json"
     weights.save(path)
-    frames = [make_frame(category, 5, boxes=boxes) for category, boxes in CASES]
+    frames = [make_frame(category, 6, boxes=boxes) for category, boxes in CASES]
     return [(frame, infer(_cloud(frame), templates=("carton",), weights=path)) for frame in frames]
 
 
