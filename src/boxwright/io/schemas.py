@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import sys
 from pathlib import Path
@@ -23,6 +24,9 @@ def schema_text(name: str) -> str:
     """The text of a schema file; what a shape cannot say (unit vectors, names that must match) the types check."""
     record, title = SCHEMAS[name]
     schema = {"$schema": DIALECT, "title": title, **msgspec.json.schema(record)}
+    for definition in schema["$defs"].values():
+        # Python 3.13 takes a docstring's indentation away by itself, 3.11 does not: the file must not depend on it.
+        definition["description"] = inspect.cleandoc(definition["description"])
     return json.dumps(schema, indent=2) + "\n"
 
 
