@@ -8,6 +8,7 @@ BIN := $(VENV)/bin
 DIST_VENV := target/dist-venv
 RUST_SOURCES := $(shell find core/src sensor/src bindings/src -name '*.rs') \
 	Cargo.toml Cargo.lock core/Cargo.toml sensor/Cargo.toml bindings/Cargo.toml
+# A reader that takes 5 s or 128 MB in one piece for a fuzzer's few kilobytes has a fault.
 FUZZ_TARGETS = $(basename $(notdir $(wildcard core/fuzz/fuzz_targets/*.rs)))
 
 # A failure left of a pipe is a failure.
@@ -73,7 +74,8 @@ fuzz: ## Each reader's fuzz target for SECONDS (needs nightly Rust and cargo-fuz
 	@cargo fuzz --version >/dev/null 2>&1 || { echo "make: cargo-fuzz is missing; cargo install cargo-fuzz --locked" >&2; exit 1; }
 	cd core && for target in $(FUZZ_TARGETS); do \
 		mkdir -p fuzz/corpus/$$target; \
-		cargo +nightly fuzz run $$target fuzz/corpus/$$target $$(ls -d fuzz/seeds/$$target 2>/dev/null) -- -max_total_time=$(SECONDS); \
+		cargo +nightly fuzz run $$target fuzz/corpus/$$target $$(ls -d fuzz/seeds/$$target 2>/dev/null) -- \
+			-max_total_time=$(SECONDS) -timeout=5 -rss_limit_mb=1024 -malloc_limit_mb=128; \
 	done
 
 lock: $(VENV)/.installed ## Lock the versions of requirements/dev.in anew

@@ -14,7 +14,7 @@ fn pixels_become_points_of_the_optical_frame() {
 
 #[test]
 fn rotated_bits() {
-    let turned: Vec<u16> = depths().iter().map(|&d| d << 3 | d >> 13).collect();
+    let turned: Vec<u16> = depths().iter().map(|&d| (u32::from(d) * 8 % 65536) as u16 + d / 8192).collect();
     let plain = read_depth_png(&depth_png(8, 4, &depths()), &camera(), DepthDecode::Plain, &PLAIN).unwrap();
     let rotated = read_depth_png(&depth_png(8, 4, &turned), &camera(), DepthDecode::Rotate3, &PLAIN).unwrap();
     assert_eq!(super::bits(&plain.points), super::bits(&rotated.points));
