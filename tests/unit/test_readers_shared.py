@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from minimal_readers import binary_pcd, binary_ply, unpacked, xyz
 
 from boxwright.io.clouds import read_cloud
+from support.minimal_readers import binary_pcd, binary_ply, unpacked, xyz
 
 REAL_BINARY = 8
 LABELLED = 14

@@ -57,12 +57,11 @@ fn reserve(output: &[u8], more: usize, size: usize, at: usize) -> Result<()> {
 /// Appends `length` bytes from `distance` back; they may overlap what is being written.
 fn copy_match(output: &mut Vec<u8>, length: usize, distance: usize) -> Option<()> {
     let start = output.len().checked_sub(distance)?;
-    if distance >= length {
-        output.extend_from_within(start..start + length);
-    } else {
-        for k in start..start + length {
-            output.push(output[k]);
-        }
+    let mut left = length;
+    while left > 0 {
+        let piece = left.min(output.len() - start); // doubles with every turn where they overlap
+        output.extend_from_within(start..start + piece);
+        left -= piece;
     }
     Some(())
 }
