@@ -41,9 +41,10 @@ def test_every_kind_occurs(boxes: list[OpenBox]) -> None:
 
 def test_flaps_open_from_nearly_closed_to_hanging(boxes: list[OpenBox]) -> None:
     degrees = np.degrees([flap.angle_rad for box in boxes for flap in box.flaps if flap])
-    shares, _ = np.histogram(degrees, [5, 20, 60, 130, 190, 240])
+    shares, _ = np.histogram(degrees, [-15, 5, 20, 60, 130, 190, 240])
     assert shares.sum() == len(degrees)
-    assert (shares / len(degrees) > 0.04).all()
+    assert shares[0] >= 8
+    assert (shares[1:] / len(degrees) > 0.04).all()
 
 
 def test_boxes_are_imperfect(boxes: list[OpenBox]) -> None:

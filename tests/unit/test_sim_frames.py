@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from boxwright.simulation import CATEGORIES, NONE, Frame, make_frame
+from boxwright.simulation.drawing import draw_scene
+from boxwright.simulation.frames import kinect_camera, render
 
 FINGERPRINT = """
 import hashlib
@@ -64,6 +66,27 @@ def test_readings_lie_on_their_panels(frames: list[Frame]) -> None:
             assert np.median(offset) < near, (frame.truth.name, part.name)
             checked += 1
     assert checked >= 60
+
+
+def test_flat_panels_turn_as_the_truth_says() -> None:
+    """A plane through the readings of a flat board agrees with its true corners, board thickness and noise allowed."""
+    camera = kinect_camera()
+    errors_deg = []
+    for k in range(18):
+        scene = draw_scene(np.random.default_rng((8, k)), CATEGORIES[k % 6], camera, None, clutter=True)
+        frame = render(scene, camera, k, "frame")
+        for label, part in enumerate(frame.truth.parts, start=1):
+            flap = scene.boxes[part.box].box.flaps[int(part.name[-1])] if part.parent else None
+            points = frame.points[frame.labels == label].astype(np.float64)
+            if len(points) < 3000 or (flap is not None and flap.bend_rad != 0):
+                continue
+            corners = np.array(part.corners)
+            normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])
+            fitted = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2][2]
+            errors_deg.append(np.degrees(np.arccos(min(1.0, abs(normal @ fitted) / np.linalg.norm(normal)))))
+    assert len(errors_deg) >= 35
+    assert np.median(errors_deg) < 0.5
+    assert max(errors_deg) < 2.0
 
 
 def test_corners_are_ordered_as_the_formats_say(frames: list[Frame]) -> None:

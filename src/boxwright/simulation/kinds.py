@@ -83,7 +83,26 @@ def _four(rng: Rng, category: str, variant: str, share: tuple[float, float], tap
         first, second, third, fourth = (_flap(rng, board, reach, taper * reach * rng.random()) for _ in range(4))
         return first, second, third, fourth
 
-    return _torn(rng, _box(rng, category, variant, flaps), 0.06)
+    return _torn(rng, _pushed_in(rng, _box(rng, category, variant, flaps), 0.07), 0.06)
+
+
+def _pushed_in(rng: Rng, box: OpenBox, chance: float) -> OpenBox:
+    """Now and then one pair of opposite flaps lies just below the rim, the other pair leans over it."""
+    if rng.random() > chance:
+        return box
+    inner = int(rng.integers(2))
+
+    def moved(k: int) -> Flap | None:
+        flap = box.flaps[k]
+        if flap is None:
+            return None
+        if k % 2 != inner:
+            return msgspec.structs.replace(flap, angle_rad=float(np.radians(rng.uniform(25.0, 70.0))))
+        angle_rad = float(np.radians(rng.uniform(-12.0, -1.0)))
+        # Flaps that go under others are slotted wider.
+        return msgspec.structs.replace(flap, angle_rad=angle_rad, bend_rad=0.0, inset_m=flap.inset_m + 0.006)
+
+    return msgspec.structs.replace(box, flaps=(moved(0), moved(1), moved(2), moved(3)))
 
 
 def _torn(rng: Rng, box: OpenBox, chance: float) -> OpenBox:
