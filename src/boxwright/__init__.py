@@ -1,3 +1,58 @@
-"""boxwright: from one depth frame of an open box to its articulated 3D model."""
+"""boxwright: from one depth frame of an open box to its articulated 3D model.
+
+    cloud = boxwright.read_cloud("frame.pcd")
+    model = boxwright.infer(cloud).model
+    for k, found in enumerate(model.objects):
+        boxwright.save_urdf(found, f"box_{k}.urdf")
+
+Metres, radians and seconds throughout. Every coordinate is in the input's own frame (a depth camera's: x right,
+y down, z forward). Names are loaded when they are first used.
+
+- `Cloud`: points (N, 3) float32, metres; pixel (u, v) of an organized one is point v * width + u.
+- `read_cloud(path, ...) -> Cloud`: PCD, PLY, NPY, or a depth PNG with its intrinsics.
+- `infer(cloud, ...) -> Inferred`: the model, and the object and part of each point, (N,) int16, -1 for none.
+- `Model`: panels (4 corners, metres), hinges (origin, axis, position in radians: 0 closed, growing as a flap opens).
+- `load_model(path) -> Model`: a model.json.
+- `save_urdf(object, path, ...)`: one object of a model as URDF.
+- `evaluate(folder, ...) -> Summary`: figures of merit on a labelled set: per cent, degrees, millimetres.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from boxwright.io.clouds import read_cloud
+    from boxwright.io.models import load_model
+    from boxwright.kinematics import save_urdf
+    from boxwright.pipeline import infer
+    from boxwright.scoring import evaluate
+    from boxwright.types import Cloud, Model
 
 __version__ = "0.1.0"
+
+__all__ = ["Cloud", "Model", "__version__", "evaluate", "infer", "load_model", "read_cloud", "save_urdf"]
+
+_HOMES = {
+    "Cloud": "boxwright.types",
+    "Model": "boxwright.types",
+    "evaluate": "boxwright.scoring",
+    "infer": "boxwright.pipeline",
+    "load_model": "boxwright.io.models",
+    "read_cloud": "boxwright.io.clouds",
+    "save_urdf": "boxwright.kinematics",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Loads a public name from its home; `boxwright --help` needs none of them."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(_HOMES[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

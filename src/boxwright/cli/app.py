@@ -8,12 +8,14 @@ import typer
 
 from boxwright import __version__
 from boxwright.cli.evaluate import evaluate
+from boxwright.cli.explain import explain
+from boxwright.cli.figure import figure
 from boxwright.cli.infer import infer
 from boxwright.cli.synth import synth
 from boxwright.cli.train import train
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich")
-for command in (infer, evaluate, synth, train):
+for command in (infer, explain, figure, evaluate, synth, train):
     app.command()(command)
 
 

@@ -27,6 +27,7 @@ from boxwright.cli.options import (
 
 if TYPE_CHECKING:
     from boxwright.cli.failures import Refusal
+    from boxwright.cli.pictures import Drawer
     from boxwright.types import Model
 
 Clouds = Annotated[
@@ -34,6 +35,7 @@ Clouds = Annotated[
 ]
 OutOption = Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the folders of answers.")]
 JobsOption = Annotated[int, typer.Option("--jobs", min=1, help="Inputs worked on at once.")]
+FigureOption = Annotated[bool, typer.Option("--figure", help="Draw NAME.png beside each model.json.")]
 VerboseOption = Annotated[bool, typer.Option("--verbose", help="Print the time of each stage too.")]
 
 
@@ -61,6 +63,7 @@ def infer(
     intrinsics: IntrinsicsOption = None,
     depth_unit_m: DepthUnitOption = None,
     depth_decode: DepthDecodeOption = "none",
+    figure: FigureOption = False,
     jobs: JobsOption = 1,
     as_json: JsonOption = False,
     verbose: VerboseOption = False,
@@ -72,21 +75,23 @@ def infer(
 
     [bold]Examples[/]
 
-    boxwright infer frame.pcd -o out
+    boxwright infer frame.pcd -o out --figure
 
     boxwright infer *.ply -o out --unit mm --frame opengl
 
     boxwright infer depth.png -o out --intrinsics camera.json --roi=-1,1,-1,1,0.4,2
     """
     from boxwright.cli.infer_report import print_json, print_outcome
+    from boxwright.cli.pictures import frame_figure_drawer
     from boxwright.cli.screen import progress
     from boxwright.parallel import ordered_map
 
     _refuse_shared_names(clouds)
     reading = ReadOptions(unit, frame, viewpoint, intrinsics, depth_unit_m, depth_decode)
     wanted = ModelOptions(method, template, weights, up, roi)
+    draw = frame_figure_drawer() if figure else None
     outcomes = []
-    work = ordered_map(lambda path: _answer(path, output, reading, wanted), clouds, jobs)
+    work = ordered_map(lambda path: _answer(path, output, reading, wanted, draw), clouds, jobs)
     for outcome in progress(work, len(clouds), "infer"):
         outcomes.append(outcome)
         print_outcome(outcome, verbose, as_json)
@@ -108,8 +113,8 @@ def _refuse_shared_names(clouds: list[Path]) -> None:
             )
 
 
-def _answer(path: Path, output: Path, reading: ReadOptions, wanted: ModelOptions) -> Outcome:
-    """Reads, infers and writes one input."""
+def _answer(path: Path, output: Path, reading: ReadOptions, wanted: ModelOptions, draw: Drawer | None) -> Outcome:
+    """Reads, infers and writes one input; `draw` draws its figure."""
     import time
 
     from boxwright.answers import save_answer
@@ -119,6 +124,9 @@ def _answer(path: Path, output: Path, reading: ReadOptions, wanted: ModelOptions
         cloud = reading.read(path)
         inferred = wanted.infer(cloud, time.perf_counter() - start)
         files = save_answer(inferred, output / path.stem, path.stem)
+        if draw is not None:
+            files = (*files, output / path.stem / f"{path.stem}.png")
+            draw(cloud, inferred, files[-1], wanted.template_names)
     except (ValueError, OSError) as error:
         return Outcome(path, refusal=error)
     return Outcome(path, inferred.model, files)

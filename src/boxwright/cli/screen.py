@@ -38,5 +38,5 @@ def progress(items: Iterable[Item], total: int, what: str) -> Iterator[Item]:
 
 
 def number(value: float | None, digits: int = 1) -> str:
-    """A number with so many decimals, "-" for none."""
-    return "-" if value is None else f"{value:.{digits}f}"
+    """A number with so many decimals, no minus before a zero; "-" for none."""
+    return "-" if value is None else f"{round(value, digits) + 0.0:.{digits}f}"
