@@ -6,6 +6,10 @@ use std::collections::HashSet;
 
 /// Things that stand on a plane begin within this many cells of it.
 const TOUCHING_CELLS: f64 = 1.5;
+/// What is above a plane is so by this many tolerances.
+const ABOVE_TOLERANCES: f64 = 1.5;
+/// A heap of things reaches no farther than this many of the largest.
+const LARGEST_HEAP: f64 = 2.0;
 /// Cells of one standing thing, at least.
 const MIN_THING_SITES: usize = 6;
 /// Of the cells around a thing's footprint, the share that must show the plane.
@@ -19,6 +23,8 @@ pub struct Footing {
     pub plane: Plane,
     /// Cells of ground, and of these the ones that no thing's outline covers.
     pub ground_cells: usize,
+    /// Side of a cell, metres.
+    pub cell_m: f64,
     pub free_cells: usize,
     /// Cells of things that stand on it, each thing counted by the share of ground around it.
     pub standing: f64,
@@ -40,22 +46,26 @@ pub fn footing(sites: &Sites, settings: &PerceptionSettings, plane: Plane, on: &
     let cell_of = |s: usize| to_cell(&frame.to_plane(&sites.centers[s]), cell_m);
     let ground: HashSet<Cell2> = on.iter().map(|&s| cell_of(s as usize)).collect();
     let over_ground = |s: usize| ground.contains(&cell_of(s));
-    let is_above = |s: usize| height[s] > 2.0 * sites.tolerance_m[s] && height[s] < settings.tallest_thing_m;
+    let is_above =
+        |s: usize| height[s] > ABOVE_TOLERANCES * sites.tolerance_m[s] && height[s] < settings.tallest_thing_m;
     let things = standing_things(sites, settings, &height, &|s| is_above(s) && !room[s]);
     let mut footing = Footing {
         plane,
         ground_cells: ground.len(),
+        cell_m,
         free_cells: 0,
         standing: 0.0,
         upright_share: None,
         above: (0..sites.len()).filter(|&s| is_above(s) && over_ground(s)).count(),
-        below: (0..sites.len()).filter(|&s| height[s] < -2.0 * sites.tolerance_m[s] && over_ground(s)).count(),
+        below: (0..sites.len())
+            .filter(|&s| height[s] < -ABOVE_TOLERANCES * sites.tolerance_m[s] && over_ground(s))
+            .count(),
     };
     let mut outlines = Vec::new();
     let (mut upright, mut oriented) = (0usize, 0usize);
     for thing in &things {
         let footprint: Vec<Point2> = thing.iter().map(|&s| frame.to_plane(&sites.centers[s])).collect();
-        if extent(&footprint) > settings.largest_thing_m {
+        if extent(&footprint) > LARGEST_HEAP * settings.largest_thing_m {
             continue;
         }
         outlines.push(convex_hull(&footprint));

@@ -9,12 +9,16 @@ use crate::geometry::{Plane, Vec3};
 
 /// A plane of which less is free is the bottom of a container, not the ground around one.
 const MIN_FREE_SHARE: f64 = 0.2;
-/// Planes that bear less than this share of the best one's things are out.
-const MIN_STANDING_SHARE: f64 = 0.4;
 /// Fewer cells of standing things than this say nothing.
 const MIN_STANDING: f64 = 8.0;
-/// Worth of a plane that would mean the camera hangs upside down.
-const UPSIDE_DOWN_PRIOR: f64 = 0.35;
+/// Cells of standing things that are enough; more make no better ground.
+const ENOUGH_STANDING: f64 = 30.0;
+/// How fast a plane loses worth as its normal turns down in the image.
+const UPSIDE_DOWN_RATE: f64 = 4.5;
+/// A table is as level as the floor (within 10 degrees), this high over it, and shows this much around its things.
+const TABLE_LEVEL_COSINE: f64 = 0.985;
+const MIN_TABLE_HEIGHT_M: f64 = 0.35;
+const MIN_TABLE_M2: f64 = 0.15;
 /// Of all cells, the share that may lie behind the support's own readings (seen through a hole or past an edge).
 const MAX_THROUGH_SHARE: f64 = 0.25;
 /// Two planes with no thing on them are both plausible where the lesser has this share of the other's worth.
@@ -87,11 +91,9 @@ fn choose(
     has_viewpoint: bool,
 ) -> Result<Option<(usize, Footing)>> {
     let most = candidates.iter().map(|(_, f)| f.standing).fold(0.0, f64::max);
-    let bears = |f: &Footing| f.standing >= MIN_STANDING_SHARE * most;
-    let worth = |f: &Footing| f.ground_cells as f64 * prior(f, organized) * (0.3 + f.upright_share.unwrap_or(0.0));
     if most >= MIN_STANDING {
-        let bearing = candidates.iter().filter(|(_, f)| bears(f));
-        return Ok(best_by(bearing, worth).cloned());
+        let best = best_by(candidates.iter(), |f| bearing_worth(f, organized));
+        return Ok(best.map(|floor| table_on(floor, candidates).clone()));
     }
     let side = |f: &Footing| if has_viewpoint || settings.up.is_some() { 1.0 } else { side_worth(f) };
     // Around a container's base every wall is upright; around one of its walls the opposite wall is not.
@@ -114,14 +116,32 @@ fn best_by<'a>(
     })
 }
 
+/// Free ground, more where things stand on it with upright sides; many things count no more than a few.
+fn bearing_worth(footing: &Footing, organized: bool) -> f64 {
+    let ground = 0.7 * footing.free_cells as f64 + 0.3 * footing.ground_cells as f64;
+    let bears = 0.1 + (footing.standing / ENOUGH_STANDING).min(1.0);
+    let upright = 0.3 + footing.upright_share.unwrap_or(0.5);
+    ground * bears * upright * prior(footing, organized)
+}
+
 /// A camera seldom hangs upside down: in its image (y down) a floor's normal does not point down. A wall's does where the
 /// camera looks down on the scene.
 fn prior(footing: &Footing, organized: bool) -> f64 {
-    if organized && footing.plane.normal.y > 0.1 {
-        UPSIDE_DOWN_PRIOR
-    } else {
-        1.0
-    }
+    let downwards = if organized { (footing.plane.normal.y - 0.05).max(0.0) } else { 0.0 };
+    (-UPSIDE_DOWN_RATE * downwards).exp()
+}
+
+/// The highest table that bears things over the floor, else the floor itself.
+fn table_on<'a>(floor: &'a (usize, Footing), candidates: &'a [(usize, Footing)]) -> &'a (usize, Footing) {
+    let height_m = |f: &Footing| f.plane.distance - floor.1.plane.distance;
+    let is_table = |(_, f): &&(usize, Footing)| {
+        f.plane.normal.dot(&floor.1.plane.normal) > TABLE_LEVEL_COSINE
+            && height_m(f) > MIN_TABLE_HEIGHT_M
+            && f.standing >= MIN_STANDING
+            && f.free_cells as f64 * f.cell_m.powi(2) > MIN_TABLE_M2
+    };
+    let tables = candidates.iter().filter(is_table);
+    tables.fold(floor, |best, t| if height_m(&t.1) > height_m(&best.1) { t } else { best })
 }
 
 /// Which side of a bare plane is up, without a viewpoint: where things are, else the origin's, else the side of +z.
