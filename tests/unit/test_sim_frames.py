@@ -69,7 +69,7 @@ def test_readings_lie_on_their_panels(frames: list[Frame]) -> None:
 
 
 def test_flat_panels_turn_as_the_truth_says() -> None:
-    """A plane through the readings of a flat board agrees with its true corners, board thickness and noise allowed."""
+    """A plane through the readings of a flat board nearer than 1.8 m has the true normal, but for bulge and noise."""
     camera = kinect_camera()
     errors_deg = []
     for k in range(18):
@@ -78,7 +78,7 @@ def test_flat_panels_turn_as_the_truth_says() -> None:
         for label, part in enumerate(frame.truth.parts, start=1):
             flap = scene.boxes[part.box].box.flaps[int(part.name[-1])] if part.parent else None
             points = frame.points[frame.labels == label].astype(np.float64)
-            if len(points) < 3000 or (flap is not None and flap.bend_rad != 0):
+            if len(points) < 3000 or points[:, 2].mean() > 1.8 or (flap is not None and flap.bend_rad != 0):
                 continue
             corners = np.array(part.corners)
             normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])

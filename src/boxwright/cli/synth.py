@@ -20,7 +20,9 @@ def synth(
             help="small, medium, large, carton, cake, pizza, or none (no open box). Repeatable; default: all six."
         ),
     ] = None,
-    boxes: Annotated[int | None, typer.Option(min=1, max=3, help="Open boxes in each frame; default: drawn.")] = None,
+    boxes: Annotated[
+        int | None, typer.Option(min=1, max=3, help="Open boxes in each frame, but for none; default: drawn.")
+    ] = None,
     start: Annotated[int, typer.Option(min=0, help="First frame of the sequence; to make a set longer.")] = 0,
     clutter: Annotated[bool, typer.Option("--clutter/--no-clutter", help="Household things around and inside.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print a summary as JSON.")] = False,

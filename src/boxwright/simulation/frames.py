@@ -41,11 +41,11 @@ def make_frame(
     """Frame `index` of the endless sequence that `seed` names; frames do not depend on one another.
 
     `category` is one of small, medium, large, carton, cake, pizza, or none for a frame without an open box; `boxes`
-    is the number of open boxes, drawn where None. Same arguments, same bits.
+    is the number of open boxes, drawn where None; it says nothing to none. Same arguments, same bits.
 
     Raises ValueError when the category is not known or the number of boxes is not 1, 2 or 3.
     """
-    _check(category, seed, index, boxes)
+    check_request(category, seed, index, boxes)
     camera = kinect_camera()
     rng = np.random.default_rng((seed, index))
     scene = draw_scene(rng, category, camera, boxes, clutter=clutter)
@@ -57,7 +57,8 @@ def frame_name(category: str, index: int) -> str:
     return f"{category}_{index:04d}"
 
 
-def _check(category: str, seed: int, index: int, boxes: int | None) -> None:
+def check_request(category: str, seed: int, index: int, boxes: int | None) -> None:
+    """Raises ValueError, saying what would be right, when `make_frame` could not use these."""
     known = (*CATEGORIES, NONE)
     if category not in known:
         raise ValueError(f"category is {category!r}; must be one of {', '.join(known)}")

@@ -228,10 +228,13 @@ KINDS: dict[str, dict[str, Draw]] = {
     "pizza": {"pizza": pizza, "wings": pizza_wings, "tuck": pizza_tuck, "plain_lid": plain_lid},
 }
 """Kinds by category and variant name."""
+RARE = {"half_slotted": 0.4, "plain_lid": 0.5}
+"""How often these are drawn, against 1 for the others."""
 
 
 def draw_box(rng: Rng, category: str, variant: str | None = None) -> OpenBox:
     """A box of a category, of the variant if one is named, before its flaps are freed from one another."""
     kinds = KINDS[category]
-    name = variant or list(kinds)[int(rng.integers(len(kinds)))]
+    weights = np.array([RARE.get(name, 1.0) for name in kinds])
+    name = variant or list(kinds)[int(rng.choice(len(kinds), p=weights / weights.sum()))]
     return kinds[name](rng, category, name)

@@ -11,7 +11,7 @@ from pathlib import Path
 from boxwright.io.clouds import write_pcd
 from boxwright.io.truth import save_truth, write_truth_labels
 from boxwright.simulation.drawing import CATEGORIES
-from boxwright.simulation.frames import Frame, make_frame
+from boxwright.simulation.frames import Frame, check_request, make_frame
 
 VIEWPOINT = (0.0, 0.0, 0.0)
 
@@ -49,6 +49,8 @@ def write_frames(
     """
     if not categories:
         raise ValueError(f"categories is empty; must name one or more of {', '.join(CATEGORIES)}, none")
+    for category in categories:
+        check_request(category, seed, start, boxes)
     folder = Path(directory)
     folder.mkdir(parents=True, exist_ok=True)
 
