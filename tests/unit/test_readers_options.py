@@ -121,7 +121,7 @@ REFUSALS: list[tuple[str, str, dict[str, object]]] = [
     ("d.png", "--unit is for clouds", {"intrinsics": "here", "unit": "mm"}),
     ("d.png", "is depth_unit_m", {"intrinsics": "here", "depth_unit_m": 1.0}),
     ("d.png", 'depth_decode: is "rot"; must be one of: none rotate3', {"intrinsics": "here", "depth_decode": "rot"}),
-    ("a.pcd", "--intrinsics, --depth-unit is for depth images", {"intrinsics": "here", "depth_unit_m": 1.0}),
+    ("a.pcd", "--intrinsics, --depth-unit-m is for depth images", {"intrinsics": "here", "depth_unit_m": 1.0}),
     ("a.pcd", "--depth-decode is for depth images", {"depth_decode": "rotate3"}),
     ("a.pcd", 'unit: is "cm"; must be one of: m mm', {"unit": "cm"}),
     ("a.pcd", "viewpoint: has 2 values", {"viewpoint": (1, 2)}),

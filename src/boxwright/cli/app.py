@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from boxwright import __version__
+from boxwright.cli.demo import demo
 from boxwright.cli.evaluate import evaluate
 from boxwright.cli.explain import explain
 from boxwright.cli.figure import figure
@@ -15,7 +16,7 @@ from boxwright.cli.synth import synth
 from boxwright.cli.train import train
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich")
-for command in (infer, explain, figure, evaluate, synth, train):
+for command in (demo, infer, explain, figure, evaluate, synth, train):
     app.command()(command)
 
 

@@ -90,13 +90,13 @@ def _depth_camera(
     camera = intrinsics if isinstance(intrinsics, Intrinsics) else read_intrinsics(intrinsics)
     step_m = camera.depth_unit_m if depth_unit_m is None else depth_unit_m
     if step_m is None:
-        raise ValueError(f"{name}: the intrinsics do not say the depth unit; say --depth-unit METRES (0.001 for mm)")
+        raise ValueError(f"{name}: the intrinsics do not say the depth unit; say --depth-unit-m METRES (0.001 for mm)")
     return camera, step_m
 
 
 def _refuse_depth_options(name: str, intrinsics: object, depth_unit_m: float | None, depth_decode: str) -> None:
     """Options without an effect are mistakes."""
-    given = {"--intrinsics": intrinsics, "--depth-unit": depth_unit_m}
+    given = {"--intrinsics": intrinsics, "--depth-unit-m": depth_unit_m}
     wrong = [option for option, value in given.items() if value is not None]
     if depth_decode != "none":
         wrong.append("--depth-decode")

@@ -1,0 +1,78 @@
+"""`boxwright evaluate`, `train` and `explain`."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+import boxwright as face
+from boxwright.evaluation import load_evaluation
+from boxwright.models import load_weights
+from support.command import boxwright
+
+
+def test_evaluate_is_the_same_on_any_number_of_threads(
+    scene_set: Path, carton: tuple[str, ...], weights: Path, tmp_path: Path
+) -> None:
+    for jobs in ("1", "2"):
+        path = tmp_path / f"{jobs}.json"
+        answer = boxwright("evaluate", scene_set, *carton, "--jobs", jobs, "-o", path)
+        assert (answer.status, answer.err) == (0, "")
+        assert "86.7" in answer.out, "the paper's figure stands beside ours"
+    assert (tmp_path / "1.json").read_bytes() == (tmp_path / "2.json").read_bytes()
+    kept = load_evaluation(tmp_path / "1.json")
+    assert [frame.name for frame in kept.frames] == ["large_0002", "medium_0001", "small_0000"]
+    assert face.evaluate(scene_set, templates=("carton",), weights=weights) == kept.summary
+
+
+def test_a_refused_frame_counts_as_nothing_found(
+    scene_set: Path, carton: tuple[str, ...], weights: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "set"
+    shutil.copytree(scene_set, folder)
+    (folder / "small_0000.pcd").write_bytes(b"no cloud")
+    answer = boxwright("evaluate", folder, *carton, "--json")
+    assert answer.status == 1
+    (line,) = answer.err.splitlines()
+    assert "small_0000.pcd" in line
+    small = next(row for row in json.loads(answer.out)["categories"] if row["category"] == "small")
+    assert (small["frames"], small["boxes"], small["boxes_without_object"]) == (1, 1, 1)
+    assert small["full_accuracy_percent"] == 0.0
+    with pytest.raises(ValueError, match=r"small_0000\.pcd"):
+        face.evaluate(folder, templates=("carton",), weights=weights)
+
+
+def test_weights_are_learned_and_used(scene_set: Path, frame: Path, tmp_path: Path) -> None:
+    contents = []
+    for jobs in ("1", "2"):
+        arguments = ("train", scene_set, "--template", "carton", "-o", "carton.json", "--jobs", jobs)
+        answer = boxwright(*arguments, folder=tmp_path)
+        assert answer.status == 0, answer.err
+        for figure in ("held out", "comes first", "regularizer", "sides_square"):
+            assert figure in answer.out
+        contents.append(load_weights(tmp_path / "carton.json"))
+    first, second = contents
+    assert first.weights == second.weights
+    assert first.training is not None
+    assert first.training.command.startswith(f"boxwright train {scene_set}")
+    assert first.training.frames == 3
+    used = ("--template", "carton", "--weights", tmp_path / "carton.json")
+    assert boxwright("infer", frame, "-o", tmp_path / "out", *used).status == 0
+
+
+def test_explained_terms_sum_to_the_score(frame: Path, carton: tuple[str, ...], tmp_path: Path) -> None:
+    assert boxwright("infer", frame, "-o", tmp_path, *carton).status == 0
+    answer = boxwright("explain", tmp_path / "small_0000", "--json")
+    assert answer.status == 0
+    objects = json.loads(answer.out)
+    assert objects
+    for told in objects:
+        terms = told["score_terms"]
+        assert sum(term["contribution"] for term in terms) == pytest.approx(told["score"], abs=1e-9)
+        assert all(term["contribution"] == pytest.approx(term["weight"] * term["value"]) for term in terms)
+    table = boxwright("explain", tmp_path / "small_0000/model.json").out
+    assert "Gamma 1" in table
+    assert "opposite_sides_rectangular" in table
