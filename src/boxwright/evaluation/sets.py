@@ -10,13 +10,12 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from boxwright.io.clouds import SUFFIXES as CLOUD_SUFFIXES
 from boxwright.io.truth import load_truth, read_truth_labels
 from boxwright.types import Truth
 
 TRUTH_SUFFIX = ".truth.json"
 LABELS_SUFFIX = ".labels.npz"
-CLOUD_SUFFIXES = (".pcd", ".ply", ".npy", ".png")
-"""Suffixes that a frame's cloud may have, in small or capital letters."""
 
 
 class SetEntry(msgspec.Struct, frozen=True, kw_only=True):

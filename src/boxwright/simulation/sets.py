@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 from boxwright.io.clouds import write_pcd
 from boxwright.io.truth import save_truth, write_truth_labels
+from boxwright.parallel import ordered_map, processors
 from boxwright.simulation.drawing import CATEGORIES
 from boxwright.simulation.frames import Frame, check_request, make_frame
 
@@ -59,16 +58,7 @@ def write_frames(
         write_frame(folder, frame)
         return frame
 
-    workers = os.cpu_count() or 1
-    with ThreadPoolExecutor(workers) as pool:
-        # A few frames ahead of the reader, not all: a frame holds 5 MB.
-        ahead: deque[Future[Frame]] = deque()
-        for index in range(start, start + count):
-            ahead.append(pool.submit(make, index))
-            if len(ahead) > 2 * workers:
-                yield ahead.popleft().result()
-        while ahead:
-            yield ahead.popleft().result()
+    return ordered_map(make, range(start, start + count), processors())
 
 
 def write_frame(folder: Path, frame: Frame) -> None:
