@@ -1,10 +1,13 @@
 //! A bounding volume hierarchy over triangles, split by the surface area heuristic in bins (Wald 2007).
 
+use crate::frustum::Frustum;
 use crate::vector::{add_scaled, cross, dot, sub, Vec3};
 use crate::Triangle;
 
 const BINS: usize = 12;
 const LEAF: usize = 3;
+/// Up to this many triangles are tried one by one.
+const MANY: usize = 24;
 
 #[derive(Clone, Copy)]
 struct Bounds {
@@ -50,6 +53,13 @@ struct Prepared {
     edge2: Vec3,
 }
 
+/// Triangles that a bundle of rays may meet.
+pub enum Candidates {
+    Few(Vec<u32>),
+    /// So many that every ray had better walk the tree.
+    All,
+}
+
 pub struct Bvh {
     nodes: Vec<Node>,
     /// In the order of the leaves.
@@ -86,27 +96,71 @@ impl Bvh {
         Self { nodes, prepared, index }
     }
 
+    /// The triangles that rays of a bundle may meet, for [`Bvh::closest`] and [`Bvh::blocked`] of these rays.
+    pub fn gather(&self, bundle: &Frustum) -> Candidates {
+        let mut found = Vec::new();
+        let mut open = vec![0u32];
+        while let Some(at) = open.pop() {
+            let node = &self.nodes[at as usize];
+            if bundle.misses(node.lo, node.hi) {
+                continue;
+            }
+            if node.count > 0 {
+                found.extend(node.first..node.first + node.count);
+            } else if !self.prepared.is_empty() {
+                open.extend([node.first + 1, node.first]);
+            }
+        }
+        if found.len() > MANY {
+            return Candidates::All;
+        }
+        Candidates::Few(found)
+    }
+
     /// The nearest triangle in front of the ray and where: (position along the ray, index of the triangle).
-    pub fn closest(&self, ray: &Ray) -> Option<(f64, usize)> {
+    pub fn closest(&self, candidates: &Candidates, ray: &Ray) -> Option<(f64, usize)> {
         let mut best: Option<(f64, usize)> = None;
-        self.walk(ray, f64::INFINITY, |t, k| {
+        let visit = |t, k: usize| {
             best = Some((t, self.index[k] as usize));
             Some(t)
-        });
+        };
+        self.visit(candidates, ray, f64::INFINITY, visit);
         best
     }
 
     /// Is anything on the ray before `limit`?
-    pub fn blocked(&self, ray: &Ray, limit: f64) -> bool {
+    pub fn blocked(&self, candidates: &Candidates, ray: &Ray, limit: f64) -> bool {
         let mut hit = false;
-        self.walk(ray, limit, |_, _| {
+        let visit = |_, _| {
             hit = true;
             None
-        });
+        };
+        self.visit(candidates, ray, limit, visit);
         hit
     }
 
     /// Visits hits nearer than the limit; `visit` returns the new limit, or nothing to stop.
+    fn visit(
+        &self,
+        candidates: &Candidates,
+        ray: &Ray,
+        mut limit: f64,
+        mut visit: impl FnMut(f64, usize) -> Option<f64>,
+    ) {
+        let Candidates::Few(few) = candidates else {
+            return self.walk(ray, limit, visit);
+        };
+        for &k in few {
+            if let Some(t) = self.prepared[k as usize].meet(ray).filter(|&t| t < limit) {
+                match visit(t, k as usize) {
+                    Some(nearer) => limit = nearer,
+                    None => return,
+                }
+            }
+        }
+    }
+
+    /// The same through the whole tree.
     fn walk(&self, ray: &Ray, mut limit: f64, mut visit: impl FnMut(f64, usize) -> Option<f64>) {
         let mut stack = [0u32; 64];
         let mut depth = 1;
@@ -163,17 +217,18 @@ impl Prepared {
         if det == 0.0 {
             return None;
         }
+        let inverse = 1.0 / det;
         let s = sub(ray.origin, self.corner);
-        let a = dot(s, p) / det;
+        let a = dot(s, p) * inverse;
         if !(0.0..=1.0).contains(&a) {
             return None;
         }
         let q = cross(s, self.edge1);
-        let b = dot(ray.direction, q) / det;
+        let b = dot(ray.direction, q) * inverse;
         if b < 0.0 || a + b > 1.0 {
             return None;
         }
-        Some(dot(self.edge2, q) / det).filter(|&t| t > 0.0)
+        Some(dot(self.edge2, q) * inverse).filter(|&t| t > 0.0)
     }
 }
 

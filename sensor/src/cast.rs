@@ -1,6 +1,7 @@
 //! Exact depth: one ray for each pixel against the scene.
 
-use crate::bvh::{Bvh, Ray};
+use crate::bvh::{Bvh, Candidates, Ray};
+use crate::frustum::Frustum;
 use crate::kinect::Kinect;
 use crate::random::{uniform, Stream};
 use crate::vector::{cross, dot, norm, sub, Vec3};
@@ -29,16 +30,41 @@ pub fn cast_exact(scene: &Scene<'_>, camera: &Kinect) -> Result<Vec<Option<Hit>>
     Ok(cast(scene, camera, None))
 }
 
+/// Pixels each way of a tile, whose rays share a list of triangles.
+const TILE: usize = 8;
+
 /// With a seed, each ray is moved by up to `ray_jitter_px` within its pixel.
 pub(crate) fn cast(scene: &Scene<'_>, camera: &Kinect, jitter_seed: Option<u64>) -> Vec<Option<Hit>> {
     let bvh = Bvh::new(scene.triangles);
-    let pixels = camera.width * camera.height;
-    let mut hits = vec![None; pixels];
-    hits.par_chunks_mut(camera.width).enumerate().for_each(|(v, row)| {
-        for (u, slot) in row.iter_mut().enumerate() {
-            *slot = hit(scene, camera, &bvh, pixel_direction(camera, u, v, jitter_seed));
+    let mut hits = vec![None; camera.width * camera.height];
+    hits.par_chunks_mut(camera.width * TILE).enumerate().for_each(|(band, rows)| {
+        for first in (0..camera.width).step_by(TILE) {
+            let us = first..(first + TILE).min(camera.width);
+            let height = rows.len() / camera.width;
+            let pixels: Vec<_> = (0..height).flat_map(|v| us.clone().map(move |u| (u, band * TILE + v))).collect();
+            for (&(u, v), hit) in pixels.iter().zip(cast_tile(scene, camera, &bvh, &pixels, jitter_seed)) {
+                rows[(v - band * TILE) * camera.width + u] = hit;
+            }
         }
     });
+    hits
+}
+
+/// Pixels (u, v) that lie near each other.
+fn cast_tile(
+    scene: &Scene<'_>,
+    camera: &Kinect,
+    bvh: &Bvh,
+    pixels: &[(usize, usize)],
+    jitter_seed: Option<u64>,
+) -> Vec<Option<Hit>> {
+    let directions: Vec<Vec3> = pixels.iter().map(|&(u, v)| pixel_direction(camera, u, v, jitter_seed)).collect();
+    let mut hits = vec![None; pixels.len()];
+    if let Some(bundle) = Frustum::around([0.0; 3], directions.iter().copied()) {
+        let seen = bvh.gather(&bundle.endless());
+        hits = directions.iter().map(|&direction| hit(scene, bvh, &seen, direction)).collect();
+    }
+    light(camera, bvh, &directions, &mut hits);
     hits
 }
 
@@ -51,20 +77,27 @@ fn pixel_direction(camera: &Kinect, u: usize, v: usize, jitter_seed: Option<u64>
     [x, y, 1.0]
 }
 
-fn hit(scene: &Scene<'_>, camera: &Kinect, bvh: &Bvh, direction: Vec3) -> Option<Hit> {
+fn hit(scene: &Scene<'_>, bvh: &Bvh, seen: &Candidates, direction: Vec3) -> Option<Hit> {
     // The direction has z = 1, so the position along the ray is the depth.
-    let (depth_m, triangle) = bvh.closest(&Ray::new([0.0; 3], direction))?;
+    let (depth_m, triangle) = bvh.closest(seen, &Ray::new([0.0; 3], direction))?;
     let [a, b, c] = scene.triangles[triangle];
     let normal = cross(sub(b, a), sub(c, a));
     let cos_incidence = (dot(normal, direction) / (norm(normal) * norm(direction))).abs();
-    let point = direction.map(|d| d * depth_m);
-    Some(Hit { depth_m, triangle, cos_incidence, lit: is_lit(camera, bvh, point) })
+    Some(Hit { depth_m, triangle, cos_incidence, lit: false })
 }
 
-/// The projector stands `baseline_m` to the left of the camera; a point it does not see has no reading.
-fn is_lit(camera: &Kinect, bvh: &Bvh, point: Vec3) -> bool {
+/// The projector stands `baseline_m` to the left of the camera; a point that it does not see has no reading.
+fn light(camera: &Kinect, bvh: &Bvh, directions: &[Vec3], hits: &mut [Option<Hit>]) {
     let projector = [-camera.baseline_m, 0.0, 0.0];
-    let ray = Ray::new(projector, sub(point, projector));
-    // Short of the point itself by a part that covers rounding.
-    !bvh.blocked(&ray, 1.0 - 1e-4)
+    let point = |direction: Vec3, hit: &Hit| direction.map(|d| d * hit.depth_m);
+    let points = directions.iter().zip(hits.iter()).filter_map(|(&d, h)| h.as_ref().map(|h| point(d, h)));
+    let Some(bundle) = Frustum::around(projector, points) else { return };
+    let between = bvh.gather(&bundle);
+    for (&direction, hit) in directions.iter().zip(hits) {
+        if let Some(hit) = hit {
+            let ray = Ray::new(projector, sub(point(direction, hit), projector));
+            // Short of the point itself by a part that covers rounding.
+            hit.lit = !bvh.blocked(&between, &ray, 1.0 - 1e-4);
+        }
+    }
 }

@@ -8,6 +8,7 @@ mod cast;
 mod clearance;
 mod error;
 mod field;
+mod frustum;
 mod kinect;
 mod random;
 mod shade;
