@@ -1,6 +1,7 @@
 //! The base of an open box lies within the support's tolerance: only what the walls enclose tells the two apart.
 
 use super::enclosure::Enclosure;
+use super::parting::Walls;
 use super::planes::Segment;
 use super::readings::Readings;
 use super::PerceptionSettings;
@@ -40,28 +41,27 @@ impl SupportBand {
         Self { support: *support, frame, patches }
     }
 
-    /// Adds to a group's segments the patches that it encloses; level segments that lie in the band are taken into them.
+    /// Adds to a group's segments the patches that it encloses, one base for those that no wall parts; level segments that
+    /// lie in the band are taken into them.
     pub fn add_base(&self, readings: &Readings, segments: &mut Vec<Segment>, settings: &PerceptionSettings) {
         if segments.iter().filter(|s| self.is_wall(s, settings)).count() < MIN_WALLS {
             return;
         }
         let outline = self.standing_points(readings, segments, settings);
         let Some(enclosure) = Enclosure::new(&outline, settings.base_margin_m) else { return };
-        let flat = |i: &u32| self.frame.to_plane(&readings.point(*i));
-        let encloses = |patch: &&Vec<u32>| enclosure.encloses(&patch.iter().map(flat).collect::<Vec<_>>());
-        let mut points: Vec<u32> = self.patches.iter().filter(encloses).flatten().copied().collect();
-        let is_base = |s: &Segment| {
-            self.is_level_in_band(readings, s, settings)
-                && enclosure.encloses(&s.points.iter().map(flat).collect::<Vec<_>>())
-        };
-        segments.iter().filter(|s| is_base(s)).for_each(|s| points.extend(&s.points));
-        points.sort_unstable();
-        if let Some(base) = self.segment_of(readings, points) {
-            if base.points.len() >= settings.min_segment_points && base.area_m2 >= settings.min_segment_area_m2 {
-                segments.retain(|s| !is_base(s));
-                segments.push(base);
-            }
-        }
+        let flat = |points: &[u32]| points.iter().map(|&i| self.frame.to_plane(&readings.point(i))).collect::<Vec<_>>();
+        let encloses = |patch: &&Vec<u32>| enclosure.encloses(&flat(patch));
+        let is_base =
+            |s: &Segment| self.is_level_in_band(readings, s, settings) && enclosure.encloses(&flat(&s.points));
+        let mut patches: Vec<Vec<u32>> = self.patches.iter().filter(encloses).cloned().collect();
+        patches.extend(segments.iter().filter(|s| is_base(s)).map(|s| s.points.clone()));
+        let walls = Walls::new(segments.iter().filter(|s| self.is_wall(s, settings)).map(|s| flat(&s.points)));
+        let bases = walls.join_unparted(patches, flat).into_iter().filter_map(|p| self.segment_of(readings, p));
+        let is_enough =
+            |s: &Segment| s.points.len() >= settings.min_segment_points && s.area_m2 >= settings.min_segment_area_m2;
+        let bases: Vec<Segment> = bases.filter(is_enough).collect();
+        segments.retain(|s| !is_base(s));
+        segments.extend(bases);
     }
 
     fn segment_of(&self, readings: &Readings, points: Vec<u32>) -> Option<Segment> {

@@ -7,6 +7,7 @@ mod crease;
 mod enclosure;
 mod footing;
 mod outline;
+mod parting;
 mod perceive;
 mod planes;
 mod ransac;

@@ -71,19 +71,19 @@ impl Default for PerceptionSettings {
             tallest_thing_m: 1.6,
             cluster_gap_m: 0.02,
             min_cluster_points: 60,
-            min_segment_points: 60,
+            min_segment_points: 90,
             min_segment_area_m2: 0.0006,
             max_planes_per_cluster: 40,
             ransac_draws: 300,
             ransac_reach_m: 0.06,
             normal_tolerance_rad: 35f64.to_radians(),
-            max_rms_share: 0.5,
+            max_rms_share: 0.45,
             base_band_m: 0.02,
             base_margin_m: 0.012,
             wall_tilt_rad: 25f64.to_radians(),
             min_crease_rad: 6f64.to_radians(),
             min_crease_side_m: 0.025,
-            max_crease_residual_share: 0.85,
+            max_crease_residual_share: 0.7,
         }
     }
 }
