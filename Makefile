@@ -66,7 +66,8 @@ dist: $(VENV)/.installed | tools ## One wheel for Python 3.11 and newer in dist/
 	@ls dist/*-cp311-abi3-*.whl >/dev/null
 	$(PYTHON) -m venv $(DIST_VENV)
 	$(DIST_VENV)/bin/pip install --quiet --constraint requirements/dev.lock dist/*.whl
-	cd $(DIST_VENV) && bin/boxwright --help >/dev/null && bin/python -c 'import boxwright._core'
+	cd $(DIST_VENV) && bin/boxwright --help >/dev/null && \
+	bin/python -c 'from boxwright.models import *; [load_object_model(name) for name in TEMPLATE_NAMES]'
 	@echo "dist: $$(ls dist) ($$(du -h dist/*.whl | cut -f 1)) installs and runs"
 
 fuzz: ## Each reader's fuzz target for SECONDS (needs nightly Rust and cargo-fuzz)
