@@ -113,3 +113,20 @@ def test_scenes_without_planes() -> None:
     }
     assert len(answers["noise"]) <= 5
     assert all(len(seen.labels) > 0 and np.linalg.norm(seen.up) == pytest.approx(1) for seen in answers.values())
+
+
+def test_support_seen_from_below_is_refused() -> None:
+    points = np.ascontiguousarray(tray(np.random.default_rng(6), floor=True), dtype=np.float32)
+    with pytest.raises(ValueError, match="looks away from the viewpoint.*--frame opengl"):
+        perceive(Cloud(points=points, width=len(points), height=1, viewpoint=(0.0, 0.0, -2.0)))
+
+
+def test_corner_of_a_bare_room_asks_for_up() -> None:
+    rng = np.random.default_rng(7)
+    faces = [np.where(np.arange(3) == k, 0.0, rng.uniform(0, 1.5, (20000, 3))) for k in range(3)]
+    points = np.concatenate(faces) + rng.normal(0, 0.001, (60000, 3))
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    with pytest.raises(ValueError, match="--up x,y,z"):
+        perceive(unorganized(points @ turn.T))
+    told = perceive(unorganized(points @ turn.T), up=tuple(turn[:, 1]))
+    assert told.up @ turn[:, 1] > 0.999

@@ -139,3 +139,42 @@ fn fit_fold(all: &Strip, right: &Strip, crease: f64) -> Option<(f64, SVector<f64
     let fit = normal.cholesky()?.solve(&side);
     Some(((all.hh - fit.dot(&side)).max(0.0), fit))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloud::CloudView;
+    use crate::geometry::{Moments, SplitMix64};
+
+    /// Noisy readings of a 20 x 20 cm panel whose height over t = x is given, 1 m from the viewpoint; the planes of its fold.
+    fn fold_of(height: impl Fn(f64) -> f64, seed: u64) -> Option<[Plane; 2]> {
+        let mut rng = SplitMix64::new(seed);
+        let mut noise = || (0..12).map(|_| rng.unit()).sum::<f64>() - 6.0;
+        let grid = (0..6400).map(|k| (f64::from(k % 80) * 0.0025, f64::from(k / 80) * 0.0025));
+        let points: Vec<[f32; 3]> =
+            grid.map(|(x, y)| [x as f32, y as f32, (1.0 + height(x) + 0.002 * noise()) as f32]).collect();
+        let settings = PerceptionSettings::default();
+        let cloud = CloudView { points: &points, width: points.len(), height: 1, viewpoint: Some(Vec3::zeros()) };
+        let readings = Readings::new(&cloud, &settings);
+        let mut moments = Moments::default();
+        (0..points.len()).for_each(|i| moments.add_point(&readings.point(i as u32)));
+        let (plane, rms_m) = moments.fit_plane().unwrap();
+        let points = (0..points.len() as u32).collect();
+        fold(&readings, &Segment { plane, rms_m, area_m2: 0.04, points }, &settings)
+    }
+
+    #[test]
+    fn finds_folds_at_their_angle_and_leaves_flat_and_bent_panels() {
+        let mut cases = 0;
+        for seed in 0..20 {
+            let angle_rad = 0.16 + 0.01 * seed as f64;
+            let crease_m = 0.06 + 0.004 * seed as f64;
+            let [a, b] = fold_of(|x| (x - crease_m).max(0.0) * angle_rad.tan(), seed).expect("a fold");
+            assert!((a.normal.dot(&b.normal).abs().acos() - angle_rad).abs() < 0.02, "{angle_rad}");
+            assert!(fold_of(|_| 0.0, seed).is_none());
+            assert!(fold_of(|x| 0.6 * (x - 0.1) * (x - 0.1), seed).is_none());
+            cases += 1;
+        }
+        assert_eq!(cases, 20);
+    }
+}

@@ -77,7 +77,7 @@ impl Default for PerceptionSettings {
             ransac_draws: 300,
             ransac_reach_m: 0.06,
             normal_tolerance_rad: 35f64.to_radians(),
-            max_rms_share: 0.45,
+            max_rms_share: 0.5,
             base_band_m: 0.02,
             base_margin_m: 0.012,
             wall_tilt_rad: 25f64.to_radians(),

@@ -19,8 +19,10 @@ const UPSIDE_DOWN_RATE: f64 = 4.5;
 const TABLE_LEVEL_COSINE: f64 = 0.985;
 const MIN_TABLE_HEIGHT_M: f64 = 0.35;
 const MIN_TABLE_M2: f64 = 0.15;
-/// Of all cells, the share that may lie behind the support's own readings (seen through a hole or past an edge).
-const MAX_THROUGH_SHARE: f64 = 0.25;
+/// Cells behind the support's own readings that may be seen through holes, and how many times those above it they are
+/// where it is seen from the wrong side.
+const MIN_THROUGH: usize = 12;
+const THROUGH_FACTOR: usize = 2;
 /// Two planes with no thing on them are both plausible where the lesser has this share of the other's worth.
 const RIVAL_SHARE: f64 = 0.5;
 /// How strongly upright surroundings speak for a plane on which nothing stands.
@@ -57,7 +59,7 @@ pub fn find_ground(
         return Ok(no_plane(organized, settings));
     };
     let plane = scene.refit(readings, chosen, &footing.plane);
-    refuse_from_below(readings, &scene, chosen, &plane)?;
+    refuse_from_below(readings, &scene, chosen, &Footing { plane, ..footing.clone() })?;
     let is_ground = footing.free_cells as f64 >= MIN_FREE_SHARE * footing.ground_cells as f64;
     let is_room = |&p: &usize| p != chosen && scene.is_large[p];
     let room = (0..scene.planes.len()).filter(is_room).map(|p| scene.planes[p].plane).collect();
@@ -175,10 +177,11 @@ fn refuse_rivals(
 }
 
 /// Refuses a support that the sensor would have had to see through: more lies behind its readings than before them.
-fn refuse_from_below(readings: &Readings, scene: &ScenePlanes, chosen: usize, plane: &Plane) -> Result<()> {
+fn refuse_from_below(readings: &Readings, scene: &ScenePlanes, chosen: usize, footing: &Footing) -> Result<()> {
     let Some(viewpoint) = readings.viewpoint else { return Ok(()) };
-    let through = seen_through(&scene.sites, &scene.planes[chosen].sites, plane, &viewpoint);
-    if plane.height_of(&viewpoint) > 0.0 && (through as f64) < MAX_THROUGH_SHARE * scene.sites.len() as f64 {
+    let through = seen_through(&scene.sites, &scene.planes[chosen].sites, &footing.plane, &viewpoint);
+    let from_above = footing.plane.height_of(&viewpoint) > 0.0;
+    if from_above && (through < MIN_THROUGH || through < THROUGH_FACTOR * footing.above) {
         return Ok(());
     }
     Err(InputError::new("the support plane's visible face looks away from the viewpoint")
