@@ -117,7 +117,7 @@ def test_scenes_without_planes() -> None:
 
 def test_support_seen_from_below_is_refused() -> None:
     points = np.ascontiguousarray(tray(np.random.default_rng(6), floor=True), dtype=np.float32)
-    with pytest.raises(ValueError, match="looks away from the viewpoint.*--frame opengl"):
+    with pytest.raises(ValueError, match=r"looks away from the viewpoint.*--frame opengl"):
         perceive(Cloud(points=points, width=len(points), height=1, viewpoint=(0.0, 0.0, -2.0)))
 
 
