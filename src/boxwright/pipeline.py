@@ -18,6 +18,8 @@ from boxwright.types.model import Model, Object, Seconds, Source, SupportPlane
 METHODS = ("paper",)
 """The ways through that are built."""
 
+DEFAULT_METHOD = "paper"
+
 Bounds = tuple[float, float, float, float, float, float]
 """x low, x high, y low, y high, z low, z high in metres, the cloud's own frame."""
 
@@ -35,7 +37,7 @@ class Inferred:
 def infer(
     cloud: Cloud,
     *,
-    method: str = "paper",
+    method: str = DEFAULT_METHOD,
     templates: tuple[str | Path, ...] = TEMPLATE_NAMES,
     weights: str | Path | None = None,
     up: tuple[float, float, float] | None = None,

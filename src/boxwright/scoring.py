@@ -24,7 +24,7 @@ from boxwright.io.clouds import read_cloud
 from boxwright.io.labels import NO_LABEL, PointLabels
 from boxwright.models import TEMPLATE_NAMES
 from boxwright.parallel import ordered_map, processors
-from boxwright.pipeline import infer
+from boxwright.pipeline import DEFAULT_METHOD, infer
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class FrameOutcome:
 def evaluate(
     folder: str | os.PathLike[str],
     *,
-    method: str = "paper",
+    method: str = DEFAULT_METHOD,
     templates: tuple[str | Path, ...] = TEMPLATE_NAMES,
     weights: str | Path | None = None,
     jobs: int | None = None,
@@ -67,10 +67,10 @@ def evaluate(
 def score_entries(
     entries: Sequence[SetEntry],
     *,
-    method: str = "paper",
-    templates: tuple[str | Path, ...] = TEMPLATE_NAMES,
-    weights: str | Path | None = None,
-    jobs: int | None = None,
+    method: str,
+    templates: tuple[str | Path, ...],
+    weights: str | Path | None,
+    jobs: int | None,
 ) -> Iterator[FrameOutcome]:
     """The outcome of each frame of a set, in order, whatever the number of threads. Arguments are `evaluate`'s."""
 

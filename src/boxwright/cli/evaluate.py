@@ -14,7 +14,7 @@ def evaluate(
     folder: Annotated[
         Path, typer.Argument(metavar="SET", help="Folder of NAME.pcd, NAME.truth.json, NAME.labels.npz.")
     ],
-    method: MethodOption = "paper",
+    method: MethodOption = None,
     template: TemplateOption = None,
     weights: WeightsOption = None,
     output: Annotated[
@@ -43,7 +43,9 @@ def evaluate(
 
     wanted = ModelOptions(method, template, weights)
     entries = list_set(folder)
-    outcomes = score_entries(entries, method=method, templates=wanted.template_names, weights=weights, jobs=jobs)
+    outcomes = score_entries(
+        entries, method=wanted.method_name, templates=wanted.template_names, weights=weights, jobs=jobs
+    )
     scores, refused = [], 0
     for outcome in progress(outcomes, len(entries), "evaluate"):
         if outcome.refusal is not None:
@@ -51,12 +53,12 @@ def evaluate(
             tell(outcome.refusal, folder / outcome.name)
         if outcome.score is not None:
             scores.append(outcome.score)
-    evaluation = make_evaluation(method, folder.resolve().name, scores)
+    evaluation = make_evaluation(wanted.method_name, folder.resolve().name, scores)
     if output is not None:
         save_evaluation(evaluation, output)
     if as_json:
         print(msgspec.json.format(msgspec.json.encode(evaluation.summary), indent=1).decode())
     else:
-        print_summary(evaluation.summary, method, evaluation.set, len(entries), refused)
+        print_summary(evaluation.summary, evaluation.method, evaluation.set, len(entries), refused)
     if refused:
         raise typer.Exit(1)

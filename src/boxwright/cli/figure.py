@@ -27,7 +27,7 @@ from boxwright.cli.options import (
 def figure(
     cloud: Annotated[Path, typer.Argument(metavar="CLOUD", help="A cloud: .pcd, .ply, .npy, or a depth image .png.")],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE.png", help="Picture to write.")],
-    method: MethodOption = "paper",
+    method: MethodOption = None,
     template: TemplateOption = None,
     weights: WeightsOption = None,
     unit: UnitOption = "m",

@@ -52,7 +52,7 @@ class Outcome:
 def infer(
     clouds: Clouds,
     output: OutOption,
-    method: MethodOption = "paper",
+    method: MethodOption = None,
     template: TemplateOption = None,
     weights: WeightsOption = None,
     unit: UnitOption = "m",

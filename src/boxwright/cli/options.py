@@ -53,11 +53,11 @@ def _numbers(text: str, count: int) -> list[float]:
     return values
 
 
-def known_method(value: str) -> str:
+def known_method(value: str | None) -> str | None:
     """A method that is built; a wrong command line otherwise."""
     from boxwright.pipeline import METHODS
 
-    if value not in METHODS:
+    if value is not None and value not in METHODS:
         raise typer.BadParameter(f"{value!r} is not known; known are {', '.join(METHODS)}")
     return value
 
@@ -111,7 +111,10 @@ DepthDecodeOption = Annotated[
     ),
 ]
 MethodOption = Annotated[
-    str, typer.Option("--method", callback=known_method, help="paper: as of 2011.", rich_help_panel=MODEL)
+    str | None,
+    typer.Option(
+        "--method", callback=known_method, metavar="NAME", help="paper: as of 2011 (default).", rich_help_panel=MODEL
+    ),
 ]
 TemplateOption = Annotated[
     list[str] | None,
@@ -180,11 +183,18 @@ class ReadOptions:
 class ModelOptions:
     """What is looked for in a cloud."""
 
-    method: str
+    method: str | None
     templates: list[str] | None
     weights: Path | None
     up: Triple | None = None
     roi: Bounds | None = None
+
+    @property
+    def method_name(self) -> str:
+        """The method that is meant."""
+        from boxwright.pipeline import DEFAULT_METHOD
+
+        return self.method or DEFAULT_METHOD
 
     @property
     def template_names(self) -> tuple[str, ...]:
@@ -199,7 +209,7 @@ class ModelOptions:
 
         return infer(
             cloud,
-            method=self.method,
+            method=self.method_name,
             templates=self.template_names,
             weights=self.weights,
             up=self.up,

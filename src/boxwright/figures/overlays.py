@@ -20,6 +20,8 @@ def draw_rectangles(axes: Axes, view: View, perception: Perception) -> None:
     rectangles = perception.rectangles
     far_to_near = np.argsort(-np.array([view.distance(r).mean() for r in rectangles]), kind="stable")
     for s in far_to_near:
+        if not view.has_before_it(rectangles[s]):
+            continue
         outline = view.project(rectangles[s])
         colour = of_segment(int(s))
         axes.add_patch(Polygon(outline, closed=True, facecolor=colour, alpha=0.30, linewidth=0))
@@ -29,6 +31,7 @@ def draw_rectangles(axes: Axes, view: View, perception: Perception) -> None:
 def draw_objects(axes: Axes, view: View, objects: tuple[Object, ...]) -> None:
     """The panels of all objects: sides dark, flaps and base light with the flaps' angles, hidden ones dashed."""
     placed = [(found, part, np.array(part.corners)) for found in objects for part in found.parts if part.corners]
+    placed = [item for item in placed if view.has_before_it(item[2])]
     placed.sort(key=lambda item: (item[1].observed, -float(view.distance(item[2]).mean())))
     for _, part, corners in placed:
         _draw_panel(axes, part, view.project(corners))

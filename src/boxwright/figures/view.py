@@ -15,6 +15,9 @@ Array = NDArray[np.float64]
 PINHOLE_RMS_PX = 2.0
 """An organized cloud whose points are farther from their pixels than this is no pinhole camera's image."""
 
+NEAREST_M = 0.01
+"""What is nearer to the camera's plane is not drawn."""
+
 SIZE = (640, 480)
 """Columns and rows of a made-up camera's image."""
 
@@ -36,8 +39,12 @@ class View:
     eye: Array
     is_camera_image: bool
 
+    def has_before_it(self, points: Array) -> bool:
+        """Whether all points (N, 3) lie in front of the camera; others have no pixel."""
+        return bool(np.all(points @ self.projection[2, :3] + self.projection[2, 3] > NEAREST_M))
+
     def project(self, points: Array) -> Array:
-        """Pixels (N, 2), u and v, of points (N, 3)."""
+        """Pixels (N, 2), u and v, of points (N, 3) that lie in front of the camera."""
         homogeneous = points @ self.projection[:, :3].T + self.projection[:, 3]
         pixels: Array = homogeneous[:, :2] / homogeneous[:, 2:]
         return pixels
@@ -66,6 +73,8 @@ def _camera_image(cloud: Cloud) -> View | None:
     if max(error_u, error_v) > PINHOLE_RMS_PX:
         return None
     projection = np.array([[focal_u, 0, centre_u, 0], [0, focal_v, centre_v, 0], [0, 0, 1, 0]], np.float64)
+    # A camera of the opengl kind looks along -z; depths in front of it are to be positive.
+    projection *= np.sign(np.median(z))
     seen = np.isfinite(cloud.points).all(axis=1).reshape(index.shape)
     return View(np.where(seen, index, -1), projection, np.zeros(3), is_camera_image=True)
 

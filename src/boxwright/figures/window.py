@@ -49,5 +49,6 @@ def _subject(view: View, inferred: Inferred) -> NDArray[np.float64]:
     rows, columns = np.nonzero(shown)
     pixels = [np.column_stack([columns, rows]).astype(np.float64)]
     for found in inferred.model.objects:
-        pixels += [view.project(np.array(part.corners)) for part in found.parts if part.corners is not None]
+        panels = [np.array(part.corners) for part in found.parts if part.corners is not None]
+        pixels += [view.project(corners) for corners in panels if view.has_before_it(corners)]
     return np.concatenate(pixels)
