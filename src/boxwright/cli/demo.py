@@ -17,12 +17,15 @@ NAME = "frame"
 
 CATEGORY = "medium"
 
+SEED = 24
+"""The first seed whose frame shows the base, all four flaps and three sides, each by 400 readings or more."""
+
 
 def demo(
     output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for everything.")] = Path(
         "out/demo"
     ),
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Another seed, another frame.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Another seed, another frame.")] = SEED,
 ) -> None:
     """Make a frame by simulation, infer its box and compare the flaps' angles with the truth.
 

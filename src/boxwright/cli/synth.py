@@ -27,21 +27,27 @@ def synth(
     clutter: Annotated[bool, typer.Option("--clutter/--no-clutter", help="Household things around and inside.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print a summary as JSON.")] = False,
 ) -> None:
-    """Make simulated Kinect frames of open boxes, with exact truth."""
+    """Make simulated Kinect frames of open boxes, with exact truth.
+
+    A set can be made longer later by --start: frame i of a seed is the same however many are asked for.
+
+    [bold]Examples[/]
+
+    boxwright synth set --count 60 --seed 7
+
+    boxwright synth pizzas --count 20 --category pizza --boxes 2 --no-clutter
+    """
     import json
     import time
 
-    from rich.console import Console
-    from rich.progress import track
-
+    from boxwright.cli.screen import progress
     from boxwright.simulation import CATEGORIES, write_frames
 
     began = time.perf_counter()
     frames = write_frames(
         directory, count, seed, tuple(category or CATEGORIES), boxes=boxes, clutter=clutter, start=start
     )
-    progress = track(frames, description="synth", total=count, console=Console(stderr=True))
-    truths = [frame.truth for frame in progress]
+    truths = [frame.truth for frame in progress(frames, count, "synth")]
     seconds = time.perf_counter() - began
     if as_json:
         summary = {
