@@ -1,6 +1,6 @@
 use boxwright_core::cloud::CloudView;
 use boxwright_core::geometry::Vec3;
-use boxwright_core::inference::{best_exhaustive, rank_staged, SearchPlan, StagedSettings};
+use boxwright_core::inference::{best_exhaustive, rank_staged, SearchPlans, StagedSettings};
 use boxwright_core::model::{self, Assignment, FeatureTables, SegmentSet};
 use boxwright_core::perception::PerceptionSettings;
 use boxwright_core::{inference, pipeline};
@@ -136,9 +136,10 @@ impl Problem {
         let settings = search_settings(search)?;
         let weights = self.weights(&weights, &importance)?;
         let mut ranking = py.detach(|| {
-            let plan = SearchPlan::within(&self.template, &weights, settings.max_exponent);
+            let plans = SearchPlans::new(&self.template, &weights, settings.max_exponent);
+            let plan = plans.for_size(self.set.len(), settings.max_candidates);
             let free = vec![false; self.set.len()];
-            rank_staged(&self.template, &weights, &self.tables, &plan, &free, &settings)
+            rank_staged(&self.template, &weights, &self.tables, plan, &free, most, &settings)
         });
         ranking.candidates.truncate(most);
         let scores = PyArray1::from_iter(py, ranking.candidates.iter().map(|c| c.score));

@@ -74,8 +74,8 @@ fn with_every_relation_the_staged_search_is_exact() {
         let segments = 1 + (random.unit() * 6.0) as usize;
         let tables = random_tables(&template, &mut random, segments);
         let weights = random_weights(&template, &mut random);
-        let plan = SearchPlan::within(&template, &weights, settings.max_exponent);
-        let ranking = rank_staged(&template, &weights, &tables, &plan, &vec![false; segments], &settings);
+        let plan = SearchPlan::within(&template, &weights, settings.max_exponent).unwrap();
+        let ranking = rank_staged(&template, &weights, &tables, &plan, &vec![false; segments], 5, &settings);
         let (oracle, _) = best_exhaustive(&template, &weights, &tables);
         let best = &ranking.candidates[0];
         assert!((best.score - oracle.score).abs() < 1e-9, "{} against {}", best.score, oracle.score);
@@ -94,8 +94,8 @@ fn the_carton_too() {
     for _ in 0..40 {
         let tables = random_tables(&template, &mut random, 4);
         let weights = random_weights(&template, &mut random);
-        let plan = SearchPlan::within(&template, &weights, settings.max_exponent);
-        let ranking = rank_staged(&template, &weights, &tables, &plan, &[false; 4], &settings);
+        let plan = SearchPlan::within(&template, &weights, settings.max_exponent).unwrap();
+        let ranking = rank_staged(&template, &weights, &tables, &plan, &[false; 4], 5, &settings);
         let (oracle, _) = best_exhaustive(&template, &weights, &tables);
         assert!((ranking.candidates[0].score - oracle.score).abs() < 1e-9);
         cases += 1;
@@ -112,9 +112,9 @@ fn the_gap_bounds_what_was_missed() {
     for _ in 0..400 {
         let tables = random_tables(&template, &mut random, 5);
         let weights = random_weights(&template, &mut random);
-        let plan = SearchPlan::within(&template, &weights, settings.max_exponent);
+        let plan = SearchPlan::within(&template, &weights, settings.max_exponent).unwrap();
         assert!(plan.exponent() <= 2);
-        let ranking = rank_staged(&template, &weights, &tables, &plan, &[false; 5], &settings);
+        let ranking = rank_staged(&template, &weights, &tables, &plan, &[false; 5], 5, &settings);
         let (oracle, _) = best_exhaustive(&template, &weights, &tables);
         let best = ranking.candidates[0].score;
         assert!(best <= oracle.score + 1e-9);
@@ -131,11 +131,11 @@ fn the_carton_drops_the_opposite_sides_first_where_they_matter_least() {
     let template = Template::from_toml(CARTON).unwrap();
     let mut weights = Weights::from_json(&unit_weights(&template, 0.0), &template).unwrap();
     let names: Vec<String> = template.term_names().map(str::to_owned).collect();
-    assert_eq!(SearchPlan::within(&template, &weights, 9).exponent(), 5);
+    assert_eq!(SearchPlan::within(&template, &weights, 9).unwrap().exponent(), 5);
     for (name, importance) in names.iter().zip(&mut weights.importance) {
         *importance = if name.starts_with("opposite") { 0.1 } else { 1.0 };
     }
-    let plan = SearchPlan::within(&template, &weights, 4);
+    let plan = SearchPlan::within(&template, &weights, 4).unwrap();
     assert_eq!(plan.exponent(), 4);
     let dropped = |r: usize| !plan.uses_relation[r];
     let dropped_names: Vec<&str> =
@@ -151,9 +151,9 @@ fn taken_segments_stay_out() {
     for _ in 0..20 {
         let tables = random_tables(&template, &mut random, 7);
         let weights = random_weights(&template, &mut random);
-        let plan = SearchPlan::within(&template, &weights, settings.max_exponent);
+        let plan = SearchPlan::within(&template, &weights, settings.max_exponent).unwrap();
         let taken: Vec<bool> = (0..7).map(|s| s % 2 == 0).collect();
-        let ranking = rank_staged(&template, &weights, &tables, &plan, &taken, &settings);
+        let ranking = rank_staged(&template, &weights, &tables, &plan, &taken, 5, &settings);
         assert!(!ranking.candidates.is_empty());
         for candidate in &ranking.candidates {
             let mut used: Vec<usize> = candidate.assignment.iter().flatten().copied().collect();

@@ -67,7 +67,7 @@ pub fn flap_panel(frame: &BoxFrame, segments: &BoxSegments, set: &SegmentSet, k:
     let edge = side_top.unwrap_or(HingeEdge { start: corners[0], end: corners[1] });
     let axis = edge.axis(&rim.axis(&frame.x));
     let closed = frame.z.cross(&axis).try_normalize(1e-9)?;
-    let direction = leaving_direction(&corners, &axis)?;
+    let direction = leaving_direction(&set.planes[s].normal, &set.centers[s], &edge.middle(), &axis)?;
     let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&closed, &direction, &axis) };
     Some((Panel { corners, observed: true }, hinge))
 }
@@ -80,8 +80,13 @@ pub fn tuck_panel(flap: &Panel, segments: &BoxSegments, set: &SegmentSet, k: usi
     let edge = HingeEdge { start: free_start, end: free_end };
     let corners = corners_from_hinge(&set.rectangles[s], &edge);
     let axis = -(end - start).try_normalize(1e-9)?;
-    let continued = leaving_direction(&flap.corners, &axis)?;
-    let direction = leaving_direction(&corners, &axis)?;
+    let continued = square_part(&(free_start + free_end - start - end), &axis)?;
+    let direction = leaving_direction(&set.planes[s].normal, &set.centers[s], &edge.middle(), &axis)?;
     let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&continued, &direction, &axis) };
     Some((Panel { corners, observed: true }, hinge))
+}
+
+/// Unit vector along the part of `v` that is square to `axis`.
+fn square_part(v: &Vec3, axis: &Vec3) -> Option<Vec3> {
+    (v - axis * v.dot(axis)).try_normalize(1e-9)
 }

@@ -19,8 +19,8 @@ pub fn hinge_between(parent: &Rectangle, child: &Rectangle) -> Option<FreeHinge>
         })
         .min_by(|a, b| distance_m(a, child).total_cmp(&distance_m(b, child)))?;
     let axis = (edge.end - edge.start).try_normalize(1e-9)?;
-    let closed = leaving_direction(&corners_from_hinge(parent, &edge), &axis)?;
-    let direction = leaving_direction(&corners_from_hinge(child, &edge), &axis)?;
+    let leaving = |panel: &Rectangle| leaving_direction(&panel.normal()?, &panel.center(), &edge.middle(), &axis);
+    let (closed, direction) = (leaving(parent)?, leaving(child)?);
     let angle = hinge_angle_rad(&closed, &direction, &axis);
     // Opening counts up: turn the axis where the child opened the other way.
     let (axis, position_rad) = if angle < 0.0 { (-axis, -angle) } else { (axis, angle) };

@@ -22,33 +22,32 @@ impl HingeEdge {
     }
 }
 
-/// The rectangle's corners from the edge nearest to `hinge` on: that edge along the hinge's direction, then the two free
-/// corners, going round.
+/// The rectangle's corners from its hinge edge on: that edge along the hinge's direction, then the two free corners, going
+/// round. Of the two edges that run along the hinge, the one whose middle is nearer to it.
 pub fn corners_from_hinge(rectangle: &Rectangle, hinge: &HingeEdge) -> [Vec3; 4] {
-    let misfit = |k: usize, forward: bool| {
+    let along = hinge.end - hinge.start;
+    let run = |k: usize| {
         let (a, b) = rectangle.edge(k);
-        let (start, end) = if forward { (a, b) } else { (b, a) };
-        (start - hinge.start).norm() + (end - hinge.end).norm()
+        (b - a).try_normalize(1e-9).map_or(0.0, |direction| direction.dot(&along))
     };
-    let (mut edge, mut forward, mut least) = (0, true, f64::INFINITY);
-    for (k, is_forward) in (0..4).flat_map(|k| [(k, true), (k, false)]) {
-        if misfit(k, is_forward) < least {
-            (edge, forward, least) = (k, is_forward, misfit(k, is_forward));
-        }
-    }
+    let distance = |k: usize| {
+        let (a, b) = rectangle.edge(k);
+        ((a + b) / 2.0 - hinge.middle()).norm()
+    };
+    let first = usize::from(run(1).abs() > run(0).abs());
+    let edge = if distance(first) <= distance(first + 2) { first } else { first + 2 };
     let corner = |offset: usize| rectangle.corners[(edge + offset) % 4];
-    if forward {
+    if run(edge) >= 0.0 {
         [corner(0), corner(1), corner(2), corner(3)]
     } else {
         [corner(1), corner(0), corner(3), corner(2)]
     }
 }
 
-/// Unit direction in which a panel leaves its hinge: in its plane, square to the axis, towards its free edge.
-pub fn leaving_direction(corners_from_hinge: &[Vec3; 4], axis: &Vec3) -> Option<Vec3> {
-    let [start, end, free_end, free_start] = corners_from_hinge;
-    let out = (free_end + free_start - start - end) / 2.0;
-    (out - axis * out.dot(axis)).try_normalize(1e-9)
+/// Unit direction in which a panel leaves its hinge: in its plane, square to the axis, towards its middle.
+pub fn leaving_direction(normal: &Vec3, middle: &Vec3, hinge_point: &Vec3, axis: &Vec3) -> Option<Vec3> {
+    let direction = axis.cross(normal).try_normalize(1e-9)?;
+    Some(if direction.dot(&(middle - hinge_point)) < 0.0 { -direction } else { direction })
 }
 
 /// Angle from `zero` to `direction` about `axis` by the right hand, both square to it, in -pi/2 .. 3 pi/2.

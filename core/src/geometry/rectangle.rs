@@ -25,4 +25,10 @@ impl Rectangle {
         let [a, b] = self.size();
         a * b
     }
+
+    /// Unit normal by the right hand round the corners; `None` where the rectangle has no area.
+    pub fn normal(&self) -> Option<Vec3> {
+        let [a, b, c, _] = self.corners;
+        (b - a).cross(&(c - b)).try_normalize(1e-12)
+    }
 }

@@ -1,7 +1,7 @@
 //! The structure of a template's relations: what can be searched apart once something is fixed.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BTreeSet, BinaryHeap};
 
 use crate::model::{Template, Weights};
 
@@ -79,19 +79,21 @@ impl SearchPlan {
     }
 
     /// The plan with every relation, or, where that costs more than `n^max_exponent`, the one that drops the relations of
-    /// the least total importance that bring it down.
-    pub fn within(template: &Template, weights: &Weights, max_exponent: usize) -> Self {
-        let count = template.relations.len();
-        let importance = &weights.importance[template.features.len()..];
-        let mut order: Vec<usize> = (0..count).collect();
-        order.sort_by(|&a, &b| importance[a].total_cmp(&importance[b]).then(a.cmp(&b)));
-        for dropped in subsets_by_cost(&order, importance) {
-            let plan = Self::new(template, (0..count).map(|r| !dropped.contains(&r)).collect());
+    /// the least total importance that bring it down; `None` where not even dropping all of them does.
+    pub fn within(template: &Template, weights: &Weights, max_exponent: usize) -> Option<Self> {
+        let bundles = bundles_by_cost(template, weights);
+        let costs: Vec<f64> = bundles.iter().map(|bundle| bundle.cost).collect();
+        for dropped in subsets_by_cost(&costs) {
+            let mut uses_relation = vec![true; template.relations.len()];
+            for &r in dropped.iter().flat_map(|&k| &bundles[k].relations) {
+                uses_relation[r] = false;
+            }
+            let plan = Self::new(template, uses_relation);
             if plan.exponent() <= max_exponent {
-                return plan;
+                return Some(plan);
             }
         }
-        Self::new(template, vec![false; count])
+        None
     }
 
     /// The search visits of the order of n to this power.
@@ -101,8 +103,41 @@ impl SearchPlan {
         core.max(folded)
     }
 
+    /// Combinations of the fixed parts among `segments`, empty parts counted in; saturates.
+    fn combinations(&self, segments: usize) -> usize {
+        (segments + 1).saturating_pow(self.fixed.len() as u32)
+    }
+
     pub fn drops_relations(&self) -> bool {
         self.uses_relation.iter().any(|uses| !uses)
+    }
+}
+
+/// Plans for one template, the most thorough first: each cheaper than the one before it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SearchPlans(Vec<SearchPlan>);
+
+impl SearchPlans {
+    /// The plans from `max_exponent` downwards.
+    pub fn new(template: &Template, weights: &Weights, max_exponent: usize) -> Self {
+        let mut plans: Vec<SearchPlan> = Vec::new();
+        for exponent in (1..=max_exponent.max(1)).rev() {
+            match SearchPlan::within(template, weights, exponent) {
+                Some(plan) if plans.last() != Some(&plan) => plans.push(plan),
+                Some(_) => {}
+                None => break,
+            }
+        }
+        if plans.is_empty() {
+            plans.push(SearchPlan::new(template, vec![false; template.relations.len()]));
+        }
+        Self(plans)
+    }
+
+    /// The most thorough plan that makes at most `max_candidates` of `segments`; the cheapest where none does.
+    pub fn for_size(&self, segments: usize, max_candidates: usize) -> &SearchPlan {
+        let fits = self.0.iter().find(|plan| plan.combinations(segments) <= max_candidates);
+        fits.unwrap_or(&self.0[self.0.len() - 1])
     }
 }
 
@@ -110,15 +145,41 @@ fn bits(mask: u32) -> Vec<usize> {
     (0..32).filter(|&p| mask >> p & 1 == 1).collect()
 }
 
-/// All subsets of `order` (ascending cost) by ascending total cost, smallest first.
-fn subsets_by_cost<'a>(order: &'a [usize], cost: &'a [f64]) -> impl Iterator<Item = Vec<usize>> + 'a {
-    let total = |set: &[usize]| ordered_bits(set.iter().map(|&k| cost[order[k]].max(0.0)).sum());
+/// Relations that tie the same pairs of parts: the graph changes only when all of them are dropped.
+struct Bundle {
+    relations: Vec<usize>,
+    /// Their total importance.
+    cost: f64,
+}
+
+fn bundles_by_cost(template: &Template, weights: &Weights) -> Vec<Bundle> {
+    let edges = |r: usize| -> BTreeSet<(usize, usize)> {
+        template.relations[r].pairs.iter().map(|&(p, q)| (p.min(q), p.max(q))).collect()
+    };
+    let importance = &weights.importance[template.features.len()..];
+    let mut bundles: Vec<Bundle> = Vec::new();
+    for (r, importance) in importance.iter().enumerate() {
+        match bundles.iter_mut().find(|bundle| edges(bundle.relations[0]) == edges(r)) {
+            Some(bundle) => {
+                bundle.relations.push(r);
+                bundle.cost += importance;
+            }
+            None => bundles.push(Bundle { relations: vec![r], cost: *importance }),
+        }
+    }
+    bundles.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.relations.cmp(&b.relations)));
+    bundles
+}
+
+/// All subsets of positions in `costs` (ascending) by ascending total cost, the empty one first.
+fn subsets_by_cost(costs: &[f64]) -> impl Iterator<Item = Vec<usize>> + '_ {
+    let total = |set: &[usize]| ordered_bits(set.iter().map(|&k| costs[k]).sum());
     let mut heap = BinaryHeap::from([Reverse((0u64, Vec::<usize>::new()))]);
     std::iter::from_fn(move || {
         let Reverse((_, set)) = heap.pop()?;
         // Each set is reached once: by growing, or by moving its last member on.
         let next = set.last().map_or(0, |last| last + 1);
-        if next < order.len() {
+        if next < costs.len() {
             let mut grown = set.clone();
             grown.push(next);
             heap.push(Reverse((total(&grown), grown)));
@@ -128,7 +189,7 @@ fn subsets_by_cost<'a>(order: &'a [usize], cost: &'a [f64]) -> impl Iterator<Ite
                 heap.push(Reverse((total(&moved), moved)));
             }
         }
-        Some(set.iter().map(|&k| order[k]).collect())
+        Some(set)
     })
 }
 

@@ -11,6 +11,6 @@ mod queue;
 mod staged;
 
 pub use exhaustive::best_exhaustive;
-pub use graph::{RelationGraph, SearchPlan};
+pub use graph::{RelationGraph, SearchPlan, SearchPlans};
 pub use objects::{find_objects, FoundObject, ObjectModel};
 pub use staged::{rank_staged, Candidate, Ranking, StagedSettings};

@@ -1,6 +1,6 @@
 //! Several objects among the same segments: the best one first, then the best of what it left.
 
-use super::graph::SearchPlan;
+use super::graph::SearchPlans;
 use super::staged::{rank_staged, Candidate, StagedSettings};
 use crate::model::{FeatureTables, SegmentSet, Template, Weights};
 
@@ -9,13 +9,13 @@ use crate::model::{FeatureTables, SegmentSet, Template, Weights};
 pub struct ObjectModel {
     pub template: Template,
     pub weights: Weights,
-    pub plan: SearchPlan,
+    pub plans: SearchPlans,
 }
 
 impl ObjectModel {
     pub fn new(template: Template, weights: Weights, settings: &StagedSettings) -> Self {
-        let plan = SearchPlan::within(&template, &weights, settings.max_exponent);
-        Self { template, weights, plan }
+        let plans = SearchPlans::new(&template, &weights, settings.max_exponent);
+        Self { template, weights, plans }
     }
 }
 
@@ -31,6 +31,9 @@ pub struct FoundObject {
     /// Other assignments that were ranked against it.
     pub alternatives: usize,
 }
+
+/// Assignments that are ranked for each object: the best may be refused for what it lacks.
+const RANKED: usize = 20;
 
 /// Takes objects out of the segments, best first, until none reaches its weights' `accept_score`. No segment is used
 /// twice; of models that score the same the first one wins.
@@ -54,7 +57,9 @@ fn best_object(
     settings: &StagedSettings,
 ) -> Option<FoundObject> {
     let contenders = models.iter().zip(tables).enumerate().filter_map(|(number, (model, tables))| {
-        let ranking = rank_staged(&model.template, &model.weights, tables, &model.plan, taken, settings);
+        let free = taken.iter().filter(|taken| !**taken).count();
+        let plan = model.plans.for_size(free, settings.max_candidates);
+        let ranking = rank_staged(&model.template, &model.weights, tables, plan, taken, RANKED, settings);
         let alternatives = ranking.candidates.len().saturating_sub(1);
         let candidate = ranking.candidates.into_iter().find(|c| model.template.accept.allows(&c.assignment))?;
         let passes = candidate.score >= model.weights.accept_score;

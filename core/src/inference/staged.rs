@@ -14,18 +14,18 @@ use crate::model::{Assignment, FeatureTables, Template, Weights};
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct StagedSettings {
-    /// Relations are dropped from the first stage until it costs at most n to this power. The paper drops gamma 4 and
-    /// gamma 5, which brings the box from n^5 to n^4.
+    /// The first stage costs at most n to this power; 5 is the paper's bound for the box with every relation in.
     pub max_exponent: usize,
     /// c: the share of the candidate list that is ranked with every relation. The paper: above 1/4 nothing changes.
     pub keep_fraction: f64,
-    /// The candidate list ends here; those with the largest phi come first.
+    /// The candidate list is at most this long: with more segments, the least important relations are dropped from the
+    /// first stage, which then fixes fewer parts; what is still too much is cut, those with the largest phi first.
     pub max_candidates: usize,
 }
 
 impl Default for StagedSettings {
     fn default() -> Self {
-        Self { max_exponent: 4, keep_fraction: 0.25, max_candidates: 100_000 }
+        Self { max_exponent: 5, keep_fraction: 0.25, max_candidates: 500_000 }
     }
 }
 
@@ -56,13 +56,14 @@ pub struct Ranking {
     pub gap: f64,
 }
 
-/// Ranks assignments of the segments that are not `taken`.
+/// Ranks assignments of the segments that are not `taken`; looks for the `most` best.
 pub fn rank_staged(
     template: &Template,
     weights: &Weights,
     tables: &FeatureTables,
     plan: &SearchPlan,
     taken: &[bool],
+    most: usize,
     settings: &StagedSettings,
 ) -> Ranking {
     let sparse = Potentials::new(template, weights, tables, &plan.uses_relation);
@@ -70,30 +71,47 @@ pub fn rank_staged(
     let completer = Completer::new(&sparse, plan, &usable);
 
     let (list, list_is_complete) = candidate_list(template, &sparse, plan, &completer, &usable, settings);
-    let keep = ((list.len() as f64 * settings.keep_fraction).ceil() as usize).clamp(1, list.len().max(1));
-    let mut candidates: Vec<Candidate> = list[..keep.min(list.len())]
-        .iter()
-        .map(|(_, fixed_states)| scored(template, weights, tables, &completer.complete(fixed_states).states))
-        .collect();
+    let complete = |entry: &(f64, Vec<usize>)| scored(template, weights, tables, &completer.complete(&entry.1).states);
+    let (mut candidates, unseen_bound) = if plan.drops_relations() {
+        // The list's order is only the sparse graph's: the paper ranks its top c|L| with every relation.
+        let keep = (list.len() as f64 * settings.keep_fraction).ceil() as usize;
+        let candidates = list.iter().take(keep.max(1)).map(complete).collect();
+        (candidates, list.first().map_or(f64::NEG_INFINITY, |(bound, _)| *bound))
+    } else {
+        best_by_bound(&list, most, complete)
+    };
     sort_distinct(template, &mut candidates);
 
     let gap = match candidates.first() {
         None => 0.0,
         Some(_) if !list_is_complete => f64::INFINITY,
         Some(best) => {
-            let unseen = list.get(keep).map_or(f64::NEG_INFINITY, |(bound, _)| *bound);
-            // Where relations were dropped, the first stage's order is no proof: even a listed combination of the fixed
-            // parts may have a better completion.
-            let dropped_gain = dropped_maximum(template, weights, tables, plan);
-            let reach = if plan.drops_relations() { list[0].0 + dropped_gain } else { unseen };
+            let reach = unseen_bound + dropped_maximum(template, weights, tables, plan);
             (reach - best.score).max(0.0)
         }
     };
     Ranking { candidates, gap }
 }
 
-/// All combinations of the fixed parts, those with the largest phi first, each with the bound of its completions;
-/// sorted by that bound. False: the list was cut at its maximum.
+/// Completes the list from its top until `most` completions score at least what any later one could: those are the best.
+/// Also the bound on the scores of what was not completed.
+fn best_by_bound(
+    list: &[(f64, Vec<usize>)],
+    most: usize,
+    complete: impl Fn(&(f64, Vec<usize>)) -> Candidate,
+) -> (Vec<Candidate>, f64) {
+    let mut candidates: Vec<Candidate> = Vec::new();
+    for entry in list {
+        if candidates.len() >= most && candidates.iter().filter(|c| c.score >= entry.0).count() >= most {
+            return (candidates, entry.0);
+        }
+        candidates.push(complete(entry));
+    }
+    (candidates, f64::NEG_INFINITY)
+}
+
+/// All combinations of the fixed parts, each with the bound of its completions; sorted by that bound. False: there were
+/// too many, and only those with the largest phi are in.
 fn candidate_list(
     template: &Template,
     sparse: &Potentials,
@@ -107,19 +125,22 @@ fn candidate_list(
         states.map(|(state, &phi)| (phi, state)).collect()
     });
     let turns = symmetries_of_fixed(template, plan);
-    let mut queue = CombinationQueue::new(lists.collect());
     let mut values = Vec::new();
     let mut list = Vec::new();
-    let mut is_complete = true;
-    for states in queue.by_ref().filter(|states| uses_each_once(states) && is_first_of_its_class(states, &turns)) {
-        if list.len() == settings.max_candidates {
-            is_complete = false;
-            break;
+    for states in CombinationQueue::new(lists.collect()) {
+        if uses_each_once(&states) && is_first_of_its_class(&states, &turns) {
+            if list.len() == settings.max_candidates {
+                return (sorted_by_bound(list), false);
+            }
+            list.push((completer.bound(&states, &mut values), states));
         }
-        list.push((completer.bound(&states, &mut values), states));
     }
+    (sorted_by_bound(list), true)
+}
+
+fn sorted_by_bound(mut list: Vec<(f64, Vec<usize>)>) -> Vec<(f64, Vec<usize>)> {
     list.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| a.1.cmp(&b.1)));
-    (list, is_complete)
+    list
 }
 
 fn uses_each_once(states: &[usize]) -> bool {

@@ -45,11 +45,18 @@ def train(
     from boxwright.cli.train_report import print_json, print_learned
     from boxwright.learning import train as learn
     from boxwright.models import load_template
+    from boxwright.parallel import processors
 
     loaded = load_template(template)
     frames, refused = _see(folders, category, jobs)
     command = shlex.join(["boxwright", *sys.argv[1:]])
-    learned = learn(loaded, frames, command=command, progress=lambda line: print(line, file=sys.stderr, flush=True))
+    learned = learn(
+        loaded,
+        frames,
+        command=command,
+        jobs=jobs or processors(),
+        progress=lambda line: print(line, file=sys.stderr, flush=True),
+    )
     learned.save(output)
     if as_json:
         print_json(learned)

@@ -10,15 +10,19 @@ from numpy.typing import NDArray
 
 from boxwright import _core
 from boxwright.learning.acceptance import choose_accept_score
-from boxwright.learning.candidates import candidates
+from boxwright.learning.candidates import CandidatePool
 from boxwright.learning.problems import LearningProblem, learning_problems
 from boxwright.learning.ridge import FrameEquations, RidgeFit, fit_ridge
 from boxwright.models import LearnedWeights
 from boxwright.models.weights import TrainingReport
+from boxwright.parallel import ordered_map
 from boxwright.types import Truth
 
-ROUNDS = 3
-"""How often candidates are made anew with the weights learned so far."""
+ROUNDS = 8
+"""How often weights are fitted, each time with the candidates added that the last ones liked best."""
+
+EMPTY_GROUPS_SHARE = 0.15
+"""What the groups of a frame in which no box shows weigh together, beside those with a box; a frame weighs 1."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,89 +35,119 @@ class SeenFrame:
     truth_labels: NDArray[np.uint16]
 
 
+@dataclass(frozen=True, eq=False)
+class _Round:
+    """Weights of one round: the better they rank the training boxes' assignments, the better the round."""
+
+    fit: RidgeFit
+    importance: NDArray[np.float64]
+    candidates: int
+    mean_correctness: float
+    rank_accuracy: float
+
+
 def train(
     template: _core.Template,
     frames: Iterable[SeenFrame],
     *,
     command: str,
+    jobs: int = 1,
     progress: Callable[[str], None] = lambda message: None,
 ) -> LearnedWeights:
     """Learns the weights of a template from labelled frames; equal frames give equal weights.
 
-    `command` is written into the weights, so that they can be made again. Raises ValueError with fewer than two frames.
+    `command` is written into the weights, so that they can be made again; `jobs` threads search. Raises ValueError
+    with fewer than two frames.
     """
     frames = list(frames)
     by_frame = [learning_problems(f.name, f.perception, template, f.truth, f.truth_labels) for f in frames]
-    terms = len(template.feature_names) + len(template.relation_names)
-    weights, importance = np.ones(terms), np.ones(terms)
-    pools: list[list[NDArray[np.int64]]] = [[np.empty((0, len(template.parts)), np.int64) for _ in p] for p in by_frame]
-    for round_number in range(1, ROUNDS + 1):
-        equations, count = _equations(by_frame, pools, weights, importance, round_number)
+    pools = [[CandidatePool(learning, seed=k) for k, learning in enumerate(problems)] for problems in by_frame]
+    names = template.feature_names + template.relation_names
+    weights, importance = np.ones(len(names)), np.ones(len(names))
+    rounds = []
+    for number in range(ROUNDS):
+        _add_top(pools, weights, importance, jobs)
+        equations, count = _equations(by_frame, pools)
         fit = fit_ridge(equations)
         weights, importance = fit.weights, np.abs(fit.weights) * fit.scale
-        progress(f"round {round_number}: {count} candidates, held-out error {fit.held_out_error:.4f}")
-    return _learned(template, frames, by_frame, fit, importance, command, count)
+        rounds.append(_judged(fit, importance, count, by_frame, jobs))
+        progress(
+            f"round {number + 1}: {count} candidates, held-out error {fit.held_out_error:.4f}, "
+            f"mean correctness of the best {rounds[-1].mean_correctness:.3f}"
+        )
+    best = max(rounds, key=lambda r: r.mean_correctness)
+    learned = LearnedWeights(
+        template=template.name,
+        weights=dict(zip(names, best.fit.weights.tolist(), strict=True)),
+        importance=dict(zip(names, best.importance.tolist(), strict=True)),
+        accept_score=0.0,
+        training=TrainingReport(
+            command=command,
+            frames=len(frames),
+            candidates=best.candidates,
+            regularizer=best.fit.regularizer,
+            fit_error=best.fit.fit_error,
+            held_out_error=best.fit.held_out_error,
+            rank_accuracy=best.rank_accuracy,
+        ),
+    )
+    return choose_accept_score(template, learned, [(f.perception, f.truth, f.truth_labels) for f in frames])
+
+
+def _add_top(
+    pools: list[list[CandidatePool]], weights: NDArray[np.float64], importance: NDArray[np.float64], jobs: int
+) -> None:
+    flat = [pool for row in pools for pool in row]
+    for _ in ordered_map(lambda pool: pool.add_top(weights, importance), flat, jobs):
+        pass
 
 
 def _equations(
-    by_frame: list[list[LearningProblem]],
-    pools: list[list[NDArray[np.int64]]],
-    weights: NDArray[np.float64],
-    importance: NDArray[np.float64],
-    seed: int,
+    by_frame: list[list[LearningProblem]], pools: list[list[CandidatePool]]
 ) -> tuple[list[FrameEquations], int]:
-    """Each frame's share of the normal equations, and how many candidates there are; a frame weighs 1."""
+    """Each frame's share of the normal equations, and how many candidates there are."""
     equations, count = [], 0
-    for problems, pool in zip(by_frame, pools, strict=True):
+    for problems, row in zip(by_frame, pools, strict=True):
         features, correctness, sample_weights = [], [], []
-        for k, learning in enumerate(problems):
-            rows, row_weights = candidates(learning, weights, importance, seed)
-            # What earlier weights liked stays in: else the fit forgets why it turned away from it.
-            pool[k] = np.unique(np.concatenate([pool[k], rows]), axis=0)
-            older = pool[k]
-            for assignments, share in ((rows, row_weights), (older, np.full(len(older), 1.0 / len(older)))):
-                features.append(learning.problem.features(assignments))
-                correctness.append(learning.correctness(assignments))
-                sample_weights.append(share / (2.0 * len(problems)))
-            count += len(older)
+        for learning, pool, share in zip(problems, row, _shares(problems), strict=True):
+            if pool:
+                candidates = pool.weighted()
+                features.append(learning.problem.features(candidates.assignments))
+                correctness.append(learning.correctness(candidates.assignments))
+                sample_weights.append(candidates.sample_weights * share)
+                count += len(candidates.assignments)
         if features:
             stacked = (np.concatenate(features), np.concatenate(correctness), np.concatenate(sample_weights))
             equations.append(FrameEquations.of(*stacked))
     return equations, count
 
 
-def _learned(
-    template: _core.Template,
-    frames: list[SeenFrame],
-    by_frame: list[list[LearningProblem]],
-    fit: RidgeFit,
-    importance: NDArray[np.float64],
-    command: str,
-    count: int,
-) -> LearnedWeights:
-    names = template.feature_names + template.relation_names
+def _shares(problems: list[LearningProblem]) -> list[float]:
+    """What each problem of a frame weighs."""
+    with_box = sum(len(learning.truths) > 0 for learning in problems)
+    without = len(problems) - with_box
+    return [
+        (1.0 - EMPTY_GROUPS_SHARE) / with_box if len(learning.truths) else EMPTY_GROUPS_SHARE / without
+        for learning in problems
+    ]
+
+
+def _judged(
+    fit: RidgeFit, importance: NDArray[np.float64], count: int, by_frame: list[list[LearningProblem]], jobs: int
+) -> _Round:
+    """How correct the best ranked assignment of each group with a box is, and how often none is known to be better."""
     problems = [learning for problems in by_frame for learning in problems if len(learning.truths)]
-    ranked_first = [_best_comes_first(learning, fit.weights, importance) for learning in problems]
-    learned = LearnedWeights(
-        template=template.name,
-        weights=dict(zip(names, fit.weights.tolist(), strict=True)),
-        importance=dict(zip(names, importance.tolist(), strict=True)),
-        accept_score=0.0,
-        training=TrainingReport(
-            command=command,
-            frames=len(frames),
-            candidates=count,
-            regularizer=fit.regularizer,
-            fit_error=fit.fit_error,
-            held_out_error=fit.held_out_error,
-            rank_accuracy=float(np.mean(ranked_first)) if ranked_first else 0.0,
-        ),
+
+    def best_and_reachable(learning: LearningProblem) -> tuple[float, float]:
+        ranked = learning.correctness(learning.problem.rank(fit.weights, importance, 1)[0])[0]
+        return float(ranked), max(float(ranked), float(learning.correctness(learning.truths).max()))
+
+    pairs = np.array(list(ordered_map(best_and_reachable, problems, jobs))).reshape(len(problems), 2)
+    first = pairs[:, 0] >= pairs[:, 1] - 1e-9
+    return _Round(
+        fit=fit,
+        importance=importance,
+        candidates=count,
+        mean_correctness=float(pairs[:, 0].mean()) if len(problems) else 0.0,
+        rank_accuracy=float(first.mean()) if len(problems) else 0.0,
     )
-    return choose_accept_score(template, learned, [(f.perception, f.truth, f.truth_labels) for f in frames])
-
-
-def _best_comes_first(learning: LearningProblem, weights: NDArray[np.float64], importance: NDArray[np.float64]) -> bool:
-    """Whether the candidate that scores highest is as correct as the most correct one that is known."""
-    ranked = learning.problem.rank(weights, importance, 1)[0]
-    pool = np.concatenate([learning.truths, candidates(learning, weights, importance, 0)[0]])
-    return bool(learning.correctness(ranked)[0] >= learning.correctness(pool).max() - 1e-9)
