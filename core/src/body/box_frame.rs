@@ -24,7 +24,7 @@ const STANDS_ON_SUPPORT_M: f64 = 0.05;
 /// The z axis: up, turned towards what sides and base say. A support that is known weighs as much as this share of them.
 const UP_PRIOR_SHARE: f64 = 0.2;
 
-/// Unit vector out of the opening: least squares over "square to every side, along the base's normal, near up".
+/// Unit vector out of the opening: least squares over "square to every side, along the base's normal, near up" (eq. 19).
 pub fn opening_direction(segments: &BoxSegments, set: &SegmentSet) -> Vec3 {
     let up = set.up;
     let sides = || segments.seen_sides().map(|(_, s)| (set.planes[s].normal, set.rectangles[s].area()));
@@ -83,7 +83,7 @@ impl BoxFrame {
         (low.min(high), high.max(low))
     }
 
-    /// The lower median of the sides' tops: a side that runs on into an upright flap ends too high, never too low.
+    /// The lower median of the sides' tops (eq. 22): a side that runs on into an upright flap ends too high, never too low.
     fn rim_height(&self, segments: &BoxSegments, set: &SegmentSet) -> f64 {
         let mut tops: Vec<f64> = segments.seen_sides().map(|(_, s)| self.highest(set, s)).collect();
         tops.sort_by(f64::total_cmp);

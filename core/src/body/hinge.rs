@@ -44,13 +44,13 @@ pub fn corners_from_hinge(rectangle: &Rectangle, hinge: &HingeEdge) -> [Vec3; 4]
     }
 }
 
-/// Unit direction in which a panel leaves its hinge: in its plane, square to the axis, towards its middle.
+/// Unit direction in which a panel leaves its hinge (eq. 24): in its plane, square to the axis, towards its middle.
 pub fn leaving_direction(normal: &Vec3, middle: &Vec3, hinge_point: &Vec3, axis: &Vec3) -> Option<Vec3> {
     let direction = axis.cross(normal).try_normalize(1e-9)?;
     Some(if direction.dot(&(middle - hinge_point)) < 0.0 { -direction } else { direction })
 }
 
-/// Angle from `zero` to `direction` about `axis` by the right hand, both square to it, in -pi/2 .. 3 pi/2.
+/// Angle from `zero` to `direction` about `axis` by the right hand (eq. 25), both square to it, in -pi/2 .. 3 pi/2.
 pub fn hinge_angle_rad(zero: &Vec3, direction: &Vec3, axis: &Vec3) -> f64 {
     let angle = axis.dot(&zero.cross(direction)).atan2(zero.dot(direction));
     if angle < -FRAC_PI_2 {

@@ -72,7 +72,7 @@ pub fn order_ring(segments: &BoxSegments, set: &SegmentSet, z: &Vec3) -> (BoxSeg
 }
 
 /// A horizontal direction along which one pair of sides runs: the area-weighted mean of all sides' directions modulo a
-/// quarter turn (the fourfold angle has no jump there).
+/// quarter turn (eq. 20: the fourfold angle has no jump there).
 fn yaw_direction(segments: &BoxSegments, set: &SegmentSet, z: &Vec3) -> Vec3 {
     let e1 = any_perpendicular(z);
     let e2 = z.cross(&e1);
@@ -92,7 +92,7 @@ fn any_perpendicular(z: &Vec3) -> Vec3 {
     z.cross(&thinnest).normalize()
 }
 
-/// How far the parts lie where their numbers say, metres: sides against each other, flaps (less) against the sides.
+/// How far the parts lie where their numbers say (eq. 21), metres: sides against each other, flaps (less) against the sides.
 fn agreement_m(order: &BoxSegments, set: &SegmentSet, x: &Vec3, z: &Vec3) -> f64 {
     let sides: Vec<(usize, usize)> = order.seen_sides().collect();
     let mut total = 0.0;

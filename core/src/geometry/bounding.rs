@@ -19,7 +19,7 @@ impl Rectangle2 {
     }
 }
 
-/// The rectangle of least area around the points, by rotating calipers over their hull (Toussaint 1983).
+/// The rectangle of least area around the points (eq. 31), by rotating calipers over their hull (Toussaint 1983).
 ///
 /// One of its edges lies along an edge of the hull (Freeman and Shapira 1975), so every hull edge is tried; the three other
 /// touching corners only move forward. Of equal areas the first edge's is taken. Fewer than three distinct directions

@@ -67,7 +67,7 @@ impl Moments {
         Some((values, directions))
     }
 
-    /// Least-squares plane and the root mean square distance from it in metres; `None` where the points span no plane.
+    /// Least-squares plane (eq. 29) and the root mean square distance from it in metres; `None` where the points span no plane.
     pub fn fit_plane(&self) -> Option<(Plane, f64)> {
         let (variances, directions) = self.principal()?;
         if variances[1] <= 1e-12 * variances[2].max(1e-12) || !directions[0].iter().all(|c| c.is_finite()) {

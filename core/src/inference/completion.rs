@@ -9,7 +9,7 @@ pub struct Completer<'a> {
     plan: &'a SearchPlan,
     /// `folded[p][state]`: the part's own score plus the best of what hangs on it.
     folded: Vec<Vec<f64>>,
-    /// `messages[p][state of the part it hangs on]`: the best that a folded part and what hangs on it can give.
+    /// `messages[p][state of the part it hangs on]`: the best that a folded part and what hangs on it can give (eq. 16).
     messages: Vec<Vec<f64>>,
     /// The edge between a folded part and the one it hangs on.
     hanging_edge: Vec<Option<usize>>,
@@ -73,7 +73,7 @@ impl<'a> Completer<'a> {
         self.hanging_edge[part].map_or(0.0, |k| self.potentials.edge_score(k, part, state, bearer_state))
     }
 
-    /// An upper bound on the score of any completion of `fixed_states` (aligned with `plan.fixed`).
+    /// An upper bound on the score of any completion of `fixed_states` (aligned with `plan.fixed`), eq. 17.
     pub fn bound(&self, fixed_states: &[usize], values: &mut Vec<f64>) -> f64 {
         let mut total = self.fixed_score(fixed_states);
         for &part in &self.plan.independent {

@@ -96,7 +96,7 @@ impl SearchPlan {
         None
     }
 
-    /// The search visits of the order of n to this power.
+    /// The search visits of the order of n to this power (eq. 10).
     pub fn exponent(&self) -> usize {
         let core = self.fixed.len() + usize::from(!self.independent.is_empty());
         let folded = if self.folds.iter().any(|(_, parent)| parent.is_some()) { 2 } else { 1 };

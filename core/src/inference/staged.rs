@@ -52,7 +52,7 @@ pub struct Candidate {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
     pub candidates: Vec<Candidate>,
-    /// How much more a candidate that was not looked at could score, at most; 0: the first is proven best.
+    /// How much more a candidate that was not looked at could score, at most (eq. 18); 0: the first is proven best.
     pub gap: f64,
 }
 

@@ -128,7 +128,7 @@ fn residuals_unfolded(all: &Strip) -> Option<(f64, f64)> {
     (flat > 0.0 && bent > 0.0).then_some((flat, bent))
 }
 
-/// Least squares of `a + b t + c max(0, t - crease)`: squared residuals and (a, b, c).
+/// Least squares of `a + b t + c max(0, t - crease)` (eq. 32): squared residuals and (a, b, c).
 fn fit_fold(all: &Strip, right: &Strip, crease: f64) -> Option<(f64, SVector<f64, 3>)> {
     let [n, t, tt, ..] = all.t;
     let [rn, rt, rtt, ..] = right.t;

@@ -46,7 +46,7 @@ impl Enclosure {
         Some(all)
     }
 
-    /// Whether most of a patch lies inside the outline and something stands around it on nearly all sides.
+    /// Whether most of a patch lies inside the outline and something stands around it on nearly all sides (eq. 33).
     pub fn encloses(&self, patch: &[Point2]) -> bool {
         let sample = patch.iter().step_by(1 + patch.len() / SAMPLES);
         let inside: Vec<&Point2> = sample.clone().filter(|p| hull_contains(&self.hull, p, self.margin_m)).collect();

@@ -180,7 +180,7 @@ fn largest_piece(sites: &Sites, mine: &[(u32, u32)]) -> Vec<(u32, u32)> {
     mine.iter().copied().filter(|&(_, s)| component[s as usize] as usize == best).collect()
 }
 
-/// Enough readings, enough area, and flat.
+/// Enough readings, enough area, and flat (eq. 30).
 fn is_segment(readings: &Readings, segment: &Segment, settings: &PerceptionSettings) -> bool {
     if segment.points.len() < settings.min_segment_points.max(3) {
         return false;

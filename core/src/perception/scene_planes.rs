@@ -86,7 +86,7 @@ impl ScenePlanes {
         plane
     }
 
-    /// Scatter of the readings over and under the largest plane's cells, in units of the expected.
+    /// Scatter of the readings over and under the largest plane's cells, in units of the expected (eq. 28).
     ///
     /// The typical cell's median: what stands on the plane or at its border spoils the fewer cells.
     fn excess_noise(&self, readings: &Readings) -> f64 {

@@ -98,12 +98,12 @@ impl PerceptionSettings {
             .map_err(|e| InputError::new(e.to_string()).in_source("perception settings"))
     }
 
-    /// Standard deviation of a reading, metres, at this range.
+    /// Standard deviation of a reading, metres, at this range (eq. 26, as expected).
     pub fn sigma_m(&self, range_m: f64) -> f64 {
         self.sigma_floor_m + self.sigma_at_1m_m * range_m * range_m
     }
 
-    /// Largest distance from a plane of a reading that belongs to it, metres, given its standard deviation.
+    /// Largest distance from a plane of a reading that belongs to it (eq. 27), metres, given its standard deviation.
     pub fn tolerance_m(&self, sigma_m: f64) -> f64 {
         self.tolerance_floor_m + self.tolerance_sigmas * sigma_m
     }

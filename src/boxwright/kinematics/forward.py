@@ -1,7 +1,8 @@
 """Forward kinematics: where every panel and hinge of an object is at given joint positions.
 
 A joint's origin and axis are told as measured, in the input's frame. A part moves by the motions of all hinges between
-it and the fixed parts, the nearest to it applied first: M(part) = M(parent) turn(origin, axis, position - measured).
+it and the fixed parts, the nearest to it applied first: M(part) = M(parent) turn(origin, axis, position - measured)
+(eq. 35 of docs/maths.md).
 """
 
 from __future__ import annotations

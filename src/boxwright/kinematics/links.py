@@ -62,7 +62,7 @@ def link_frames(model_object: Object, root: str) -> dict[str, Matrix]:
 
 
 def parent_from_joint(joint: Joint, frames: dict[str, Matrix]) -> Matrix:
-    """Where the child's link is in its parent's when the joint is at 0, that is closed; x is the axis."""
+    """Where the child's link is in its parent's when the joint is at 0, that is closed (eq. 36); x is the axis."""
     closed_from_measured = turn_about_line(joint.origin, joint.axis, -joint.position)
     return inverse(frames[joint.parent]) @ closed_from_measured @ frames[joint.child]
 

@@ -29,8 +29,8 @@ def plate(corners: Matrix, normal: Matrix, board_g_per_m2: float, thickness_m: f
     """The plate between four corners (4, 3), in any one frame, in which `normal` (3,) is the panel's unit normal.
 
     Two triangles of even mass, exact for every convex quadrilateral: the second moment of a triangle a, b, c of mass m
-    about the origin is m/12 (aa' + bb' + cc' + ss') with s = a + b + c. The board adds m t^2/12 along the normal. So
-    the moments are positive and the sum of two exceeds the third.
+    about the origin is m/12 (aa' + bb' + cc' + ss') with s = a + b + c (eqs. 37-38). The board adds m t^2/12 along the
+    normal. So the moments are positive and the sum of two exceeds the third.
     """
     mass_kg, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
     for triangle in (corners[[0, 1, 2]], corners[[0, 2, 3]]):

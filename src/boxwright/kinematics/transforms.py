@@ -46,7 +46,7 @@ def from_pose(pose: Pose) -> Matrix:
 
 
 def turn_about_line(origin: Sequence[float], axis: Sequence[float], angle_rad: float) -> Matrix:
-    """The motion that turns by the right hand about a line through `origin` (m) along `axis` (Rodrigues' formula)."""
+    """The motion that turns by the right hand about a line through `origin` (m) along `axis` (Rodrigues, eq. 34)."""
     unit = np.array(axis) / math.hypot(*axis)
     cross = np.array([[0.0, -unit[2], unit[1]], [unit[2], 0.0, -unit[0]], [-unit[1], unit[0], 0.0]])
     rotation = np.eye(3) + math.sin(angle_rad) * cross + (1.0 - math.cos(angle_rad)) * (cross @ cross)

@@ -26,7 +26,7 @@ def choose_accept_score(
     learned: LearnedWeights,
     frames: list[tuple[_core.Perception, Truth, NDArray[np.uint16]]],
 ) -> LearnedWeights:
-    """The weights with the score that does best on the frames: full accuracy of the boxes less false objects' cost."""
+    """The weights with the score that does best on the frames: full accuracy less false objects' cost (eq. 15)."""
     loose = msgspec.structs.replace(learned, accept_score=LOWEST_SCORE)
     model = _core.ObjectModel(template, msgspec.json.encode(loose).decode())
     answers = [_understood(model, perception) for perception, _, _ in frames]
