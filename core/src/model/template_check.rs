@@ -140,7 +140,9 @@ fn number(key: &str, name: &str, value: Option<f64>) -> Result<f64> {
 fn only(key: &str, given: &[(&str, bool)], read: &[&str]) -> Result<()> {
     match given.iter().find(|(name, is_given)| *is_given && !read.contains(name)) {
         Some((name, _)) => {
-            Err(at(key, format!("{name} means nothing to this kind")).mend(format!("it reads {}", read.join(", "))))
+            let mend =
+                if read.is_empty() { "leave it out".to_owned() } else { format!("it reads {}", read.join(", ")) };
+            Err(at(key, format!("{name} means nothing to this kind")).mend(mend))
         }
         None => Ok(()),
     }
