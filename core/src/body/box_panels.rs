@@ -67,7 +67,8 @@ pub fn flap_panel(frame: &BoxFrame, segments: &BoxSegments, set: &SegmentSet, k:
     let edge = side_top.unwrap_or(HingeEdge { start: corners[0], end: corners[1] });
     let axis = edge.axis(&rim.axis(&frame.x));
     let closed = frame.z.cross(&axis).try_normalize(1e-9)?;
-    let direction = leaving_direction(&set.planes[s].normal, &set.centers[s], &edge.middle(), &axis)?;
+    // A side's top may be too high (it ran on into a flap), the rim of all sides seldom is: it tells up from down.
+    let direction = leaving_direction(&set.planes[s].normal, &set.centers[s], &rim.middle(), &axis)?;
     let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&closed, &direction, &axis) };
     Some((Panel { corners, observed: true }, hinge))
 }
