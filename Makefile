@@ -15,7 +15,7 @@ FUZZ_TARGETS = $(basename $(notdir $(wildcard core/fuzz/fuzz_targets/*.rs)))
 SHELL := bash
 .SHELLFLAGS := -eu -o pipefail -c
 
-.PHONY: help tools setup demo test check bench dist fuzz lock schemas
+.PHONY: help tools setup demo test check bench dist fuzz weights evaluate lock schemas
 
 help: ## This list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -78,6 +78,25 @@ fuzz: ## Each reader's fuzz target for SECONDS (needs nightly Rust and cargo-fuz
 		cargo +nightly fuzz run $$target fuzz/corpus/$$target $$(ls -d fuzz/seeds/$$target 2>/dev/null) -- \
 			-max_total_time=$(SECONDS) -timeout=5 -rss_limit_mb=1024 -malloc_limit_mb=128; \
 	done
+
+WEIGHTS := src/boxwright/models/weights
+SETS := out/sets
+
+weights: setup ## Make the training frames and learn the shipped weights anew (about 6 minutes)
+	mkdir -p $(WEIGHTS)
+	$(BIN)/boxwright synth $(SETS)/train --count 180 --seed 1
+	$(BIN)/boxwright synth $(SETS)/train_none --count 30 --seed 2 --category none
+	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template carton -o $(WEIGHTS)/carton.json
+	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template cake_box \
+		--category cake --category carton --category none -o $(WEIGHTS)/cake_box.json
+	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template pizza_box \
+		--category pizza --category cake --category none -o $(WEIGHTS)/pizza_box.json
+
+evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 60 without an open box)
+	$(BIN)/boxwright synth $(SETS)/test --count 120 --seed 1000
+	$(BIN)/boxwright synth $(SETS)/test_none --count 60 --seed 1001 --category none
+	$(BIN)/boxwright evaluate $(SETS)/test --method paper -o out/test.json
+	$(BIN)/boxwright evaluate $(SETS)/test_none --method paper -o out/test_none.json
 
 lock: $(VENV)/.installed ## Lock the versions of requirements/dev.in anew
 	$(BIN)/pip install --quiet uv

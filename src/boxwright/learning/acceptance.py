@@ -17,7 +17,7 @@ LOWEST_SCORE = 0.05
 STEP = 0.05
 """Distance of the scores that are tried."""
 
-FALSE_OBJECT_COST = 0.5
+FALSE_OBJECT_COST = 1.0
 """What an object where none is costs, in boxes that were understood in full."""
 
 
