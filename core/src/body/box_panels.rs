@@ -1,7 +1,7 @@
 //! Panels and hinges of an open box: seen ones from their rectangles, unseen ones from the box that the sides imply.
 
 use super::box_frame::BoxFrame;
-use super::hinge::{corners_from_hinge, hinge_angle_rad, leaving_direction, HingeEdge};
+use super::hinge::{corners_from_hinge, corners_leaving, hinge_angle_rad, leaving_direction, HingeEdge};
 use super::ring::BoxSegments;
 use crate::geometry::Vec3;
 use crate::model::SegmentSet;
@@ -63,12 +63,16 @@ pub fn flap_panel(frame: &BoxFrame, segments: &BoxSegments, set: &SegmentSet, k:
     let s = segments.flaps[k]?;
     let rim = frame.rim_edge(k);
     let side_top = segments.sides[k].map(|side| top_edge(frame, set, side, k));
-    let corners = corners_from_hinge(&set.rectangles[s], &side_top.unwrap_or(rim));
-    let edge = side_top.unwrap_or(HingeEdge { start: corners[0], end: corners[1] });
+    let own_edge = || {
+        let [start, end, ..] = corners_from_hinge(&set.rectangles[s], &rim);
+        HingeEdge { start, end }
+    };
+    let edge = side_top.unwrap_or_else(own_edge);
     let axis = edge.axis(&rim.axis(&frame.x));
     let closed = frame.z.cross(&axis).try_normalize(1e-9)?;
     // A side's top may be too high (it ran on into a flap), the rim of all sides seldom is: it tells up from down.
     let direction = leaving_direction(&set.planes[s].normal, &set.centers[s], &rim.middle(), &axis)?;
+    let corners = corners_leaving(&set.rectangles[s], &axis, &direction);
     let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&closed, &direction, &axis) };
     Some((Panel { corners, observed: true }, hinge))
 }
@@ -79,10 +83,11 @@ pub fn tuck_panel(flap: &Panel, segments: &BoxSegments, set: &SegmentSet, k: usi
     let s = segments.tucks[k]?;
     let [start, end, free_end, free_start] = flap.corners;
     let edge = HingeEdge { start: free_start, end: free_end };
-    let corners = corners_from_hinge(&set.rectangles[s], &edge);
     let axis = -(end - start).try_normalize(1e-9)?;
     let continued = square_part(&(free_start + free_end - start - end), &axis)?;
     let direction = leaving_direction(&set.planes[s].normal, &set.centers[s], &edge.middle(), &axis)?;
+    // Its hinge edge runs along its flap's, against its own axis.
+    let corners = corners_leaving(&set.rectangles[s], &-axis, &direction);
     let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&continued, &direction, &axis) };
     Some((Panel { corners, observed: true }, hinge))
 }

@@ -25,17 +25,27 @@ impl HingeEdge {
 /// The rectangle's corners from its hinge edge on: that edge along the hinge's direction, then the two free corners, going
 /// round. Of the two edges that run along the hinge, the one whose middle is nearer to it.
 pub fn corners_from_hinge(rectangle: &Rectangle, hinge: &HingeEdge) -> [Vec3; 4] {
-    let along = hinge.end - hinge.start;
+    let distance = |middle: Vec3| (middle - hinge.middle()).norm();
+    corners_from_edge(rectangle, &(hinge.end - hinge.start), distance)
+}
+
+/// The same for a panel that leaves its hinge along `direction`: of the two edges along `axis`, the one it leaves behind.
+pub fn corners_leaving(rectangle: &Rectangle, axis: &Vec3, direction: &Vec3) -> [Vec3; 4] {
+    corners_from_edge(rectangle, axis, |middle| middle.dot(direction))
+}
+
+/// The corners from the edge on that runs along `along` and whose middle has the lesser `order`.
+fn corners_from_edge(rectangle: &Rectangle, along: &Vec3, order: impl Fn(Vec3) -> f64) -> [Vec3; 4] {
     let run = |k: usize| {
         let (a, b) = rectangle.edge(k);
-        (b - a).try_normalize(1e-9).map_or(0.0, |direction| direction.dot(&along))
+        (b - a).try_normalize(1e-9).map_or(0.0, |direction| direction.dot(along))
     };
-    let distance = |k: usize| {
+    let rank = |k: usize| {
         let (a, b) = rectangle.edge(k);
-        ((a + b) / 2.0 - hinge.middle()).norm()
+        order((a + b) / 2.0)
     };
     let first = usize::from(run(1).abs() > run(0).abs());
-    let edge = if distance(first) <= distance(first + 2) { first } else { first + 2 };
+    let edge = if rank(first) <= rank(first + 2) { first } else { first + 2 };
     let corner = |offset: usize| rectangle.corners[(edge + offset) % 4];
     if run(edge) >= 0.0 {
         [corner(0), corner(1), corner(2), corner(3)]
