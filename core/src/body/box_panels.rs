@@ -73,7 +73,8 @@ pub fn flap_panel(frame: &BoxFrame, segments: &BoxSegments, set: &SegmentSet, k:
     // A side's top may be too high (it ran on into a flap), the rim of all sides seldom is: it tells up from down.
     let direction = leaving_direction(&set.planes[s].normal, &set.centers[s], &rim.middle(), &axis)?;
     let corners = corners_leaving(&set.rectangles[s], &axis, &direction);
-    let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&closed, &direction, &axis) };
+    let run = panel_run(&corners, &axis)?;
+    let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&closed, &run, &axis) };
     Some((Panel { corners, observed: true }, hinge))
 }
 
@@ -84,15 +85,18 @@ pub fn tuck_panel(flap: &Panel, segments: &BoxSegments, set: &SegmentSet, k: usi
     let [start, end, free_end, free_start] = flap.corners;
     let edge = HingeEdge { start: free_start, end: free_end };
     let axis = -(end - start).try_normalize(1e-9)?;
-    let continued = square_part(&(free_start + free_end - start - end), &axis)?;
+    let continued = panel_run(&flap.corners, &axis)?;
     let direction = leaving_direction(&set.planes[s].normal, &set.centers[s], &edge.middle(), &axis)?;
     // Its hinge edge runs along its flap's, against its own axis.
     let corners = corners_leaving(&set.rectangles[s], &-axis, &direction);
-    let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&continued, &direction, &axis) };
+    let run = panel_run(&corners, &axis)?;
+    let hinge = Hinge { origin: edge.middle(), axis, position_rad: hinge_angle_rad(&continued, &run, &axis) };
     Some((Panel { corners, observed: true }, hinge))
 }
 
-/// Unit vector along the part of `v` that is square to `axis`.
-fn square_part(v: &Vec3, axis: &Vec3) -> Option<Vec3> {
-    (v - axis * v.dot(axis)).try_normalize(1e-9)
+/// Unit vector from a panel's hinge edge to its free edge, square to `axis`: what turns with the joint.
+fn panel_run(corners: &[Vec3; 4], axis: &Vec3) -> Option<Vec3> {
+    let [start, end, free_end, free_start] = corners;
+    let run = free_start + free_end - start - end;
+    (run - axis * run.dot(axis)).try_normalize(1e-9)
 }
