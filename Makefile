@@ -94,7 +94,7 @@ weights: setup ## Make the training frames and learn the shipped weights anew (a
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 60 without an open box)
 	$(BIN)/boxwright synth $(SETS)/test --count 120 --seed 1000
-	$(BIN)/boxwright synth $(SETS)/test_none --count 60 --seed 1001 --category none
+	$(BIN)/boxwright synth $(SETS)/test_none --count 60 --seed 1003 --category none
 	$(BIN)/boxwright evaluate $(SETS)/test --method paper -o out/test.json
 	$(BIN)/boxwright evaluate $(SETS)/test_none --method paper -o out/test_none.json
 
