@@ -9,6 +9,8 @@ mod tables;
 mod template;
 mod template_check;
 mod template_file;
+mod template_names;
+mod template_terms;
 mod weights;
 
 pub use features::Feature;

@@ -1,19 +1,16 @@
 //! From the file's strings and degrees to a checked `Template`; every error names the key and what would fit.
 
-use super::features::{Direction, Location, Orientation};
-use super::relations::{Connectivity, Parallel, Rectangular, RelativeLocation, RelativeOrientation};
-use super::template::{Accept, Body, FeatureTerm, Joint, OpenBoxRoles, Part, RelationTerm, Requirement, Template};
-use super::template_file::{
-    AcceptEntry, BodyEntry, FeatureEntry, FeatureKind, JointEntry, RelationEntry, RelationKind, SymmetryEntry,
-    TemplateFile,
-};
-use super::{Feature, Relation};
-use crate::error::{InputError, Result};
+use super::template::{Accept, Body, Joint, OpenBoxRoles, Part, Requirement, Template};
+use super::template_file::{AcceptEntry, BodyEntry, JointEntry, SymmetryEntry, TemplateFile};
+use super::template_names::{at, Names};
+use super::template_terms::{feature, relation};
+use super::Relation;
+use crate::error::Result;
 
 const FORMAT: &str = "boxwright.template";
 const VERSION: u32 = 1;
-/// More parts than this would make the search's structure analysis (all subsets of parts) slow.
-const MAX_PARTS: usize = 16;
+/// Six legs in any order make 720; a group far beyond is a slip, and every search would pay for it.
+const MAX_SYMMETRIES: usize = 1000;
 
 impl TemplateFile {
     pub fn check(self) -> Result<Template> {
@@ -35,51 +32,10 @@ impl TemplateFile {
             name: self.name,
             description: self.description,
         };
+        check_joints(&template)?;
         check_terms(&template)?;
         check_symmetries(&template)?;
         Ok(template)
-    }
-}
-
-fn at(key: impl Into<String>, problem: impl Into<String>) -> InputError {
-    InputError::new(problem).at(key)
-}
-
-/// The template's part names, for turning a name into an index.
-struct Names(Vec<String>);
-
-impl Names {
-    fn new(names: Vec<String>) -> Result<Self> {
-        if names.is_empty() || names.len() > MAX_PARTS {
-            return Err(
-                at("part", format!("there are {} parts", names.len())).mend(format!("a template has 1 to {MAX_PARTS}"))
-            );
-        }
-        for (k, name) in names.iter().enumerate() {
-            if name.is_empty() || names[..k].contains(name) {
-                return Err(at("part", format!("the name \"{name}\" is empty or stands twice"))
-                    .mend("each part has a name of its own"));
-            }
-        }
-        Ok(Self(names))
-    }
-
-    fn index(&self, key: &str, name: &str) -> Result<usize> {
-        self.0.iter().position(|n| n == name).ok_or_else(|| {
-            at(key, format!("\"{name}\" is no part of this template"))
-                .mend(format!("its parts are {}", self.0.join(", ")))
-        })
-    }
-
-    fn indices(&self, key: &str, names: &[String]) -> Result<Vec<usize>> {
-        names.iter().map(|name| self.index(key, name)).collect()
-    }
-
-    fn optional_index(&self, key: &str, name: &str) -> Result<Option<usize>> {
-        if name.is_empty() {
-            return Ok(None);
-        }
-        self.index(key, name).map(Some)
     }
 }
 
@@ -100,13 +56,17 @@ fn joint(entry: &JointEntry, names: &Names) -> Result<Joint> {
 /// The group that the file's generators span, the identity first.
 fn symmetry_group(entries: &[SymmetryEntry], names: &Names) -> Result<Vec<Vec<usize>>> {
     let generators = entries.iter().map(|entry| permutation(entry, names)).collect::<Result<Vec<_>>>()?;
-    let mut group: Vec<Vec<usize>> = vec![(0..names.0.len()).collect()];
+    let mut group: Vec<Vec<usize>> = vec![(0..names.count()).collect()];
     let mut next = 0;
     while next < group.len() {
         for generator in &generators {
             let product: Vec<usize> = group[next].iter().map(|&p| generator[p]).collect();
             if !group.contains(&product) {
                 group.push(product);
+            }
+            if group.len() > MAX_SYMMETRIES {
+                return Err(at("symmetry", format!("the generators span more than {MAX_SYMMETRIES} symmetries"))
+                    .mend("name fewer, or fewer parts that change places"));
             }
         }
         next += 1;
@@ -116,7 +76,7 @@ fn symmetry_group(entries: &[SymmetryEntry], names: &Names) -> Result<Vec<Vec<us
 
 fn permutation(entry: &SymmetryEntry, names: &Names) -> Result<Vec<usize>> {
     let key = format!("symmetry {}", entry.name);
-    let mut map: Vec<usize> = (0..names.0.len()).collect();
+    let mut map: Vec<usize> = (0..names.count()).collect();
     for (from, to) in &entry.map {
         map[names.index(&key, from)?] = names.index(&key, to)?;
     }
@@ -126,115 +86,6 @@ fn permutation(entry: &SymmetryEntry, names: &Names) -> Result<Vec<usize>> {
         return Err(at(key, "two parts map to one").mend("a symmetry is a permutation of the parts"));
     }
     Ok(map)
-}
-
-fn number(key: &str, name: &str, value: Option<f64>) -> Result<f64> {
-    match value {
-        Some(value) if value.is_finite() => Ok(value),
-        Some(value) => Err(at(key, format!("{name} is {value}")).mend("a finite number")),
-        None => Err(at(key, format!("{name} is missing")).mend(format!("this kind needs {name}"))),
-    }
-}
-
-/// Refuses parameters that the kind does not read, so that a typing error is not passed over.
-fn only(key: &str, given: &[(&str, bool)], read: &[&str]) -> Result<()> {
-    match given.iter().find(|(name, is_given)| *is_given && !read.contains(name)) {
-        Some((name, _)) => {
-            let mend =
-                if read.is_empty() { "leave it out".to_owned() } else { format!("it reads {}", read.join(", ")) };
-            Err(at(key, format!("{name} means nothing to this kind")).mend(mend))
-        }
-        None => Ok(()),
-    }
-}
-
-fn direction(key: &str, value: Option<Direction>) -> Result<Direction> {
-    value.ok_or_else(|| at(key, "direction is missing").mend("direction = \"up\""))
-}
-
-fn feature(entry: &FeatureEntry, names: &Names) -> Result<FeatureTerm> {
-    let key = format!("feature {}", entry.name);
-    let given = [
-        ("direction", entry.direction.is_some()),
-        ("angle_deg", entry.angle_deg.is_some()),
-        ("tolerance_deg", entry.tolerance_deg.is_some()),
-        ("tolerance_m", entry.tolerance_m.is_some()),
-        ("oriented", entry.oriented.is_some()),
-        ("reference", entry.reference.is_some()),
-    ];
-    let feature = match entry.kind {
-        FeatureKind::Orientation => {
-            only(&key, &given, &["direction", "angle_deg", "tolerance_deg", "oriented"])?;
-            Feature::Orientation(Orientation {
-                direction: direction(&key, entry.direction)?,
-                angle_rad: number(&key, "angle_deg", entry.angle_deg)?.to_radians(),
-                tolerance_rad: number(&key, "tolerance_deg", entry.tolerance_deg)?.to_radians(),
-                oriented: entry.oriented == Some(true),
-            })
-        }
-        FeatureKind::Location => {
-            only(&key, &given, &["reference", "tolerance_m"])?;
-            Feature::Location(Location {
-                reference: entry
-                    .reference
-                    .ok_or_else(|| at(&key, "reference is missing").mend("group_center or group_foot"))?,
-                tolerance_m: number(&key, "tolerance_m", entry.tolerance_m)?,
-            })
-        }
-        FeatureKind::Existence => {
-            only(&key, &given, &[])?;
-            Feature::Existence
-        }
-    };
-    Ok(FeatureTerm { parts: names.indices(&key, &entry.parts)?, name: entry.name.clone(), feature })
-}
-
-fn relation(entry: &RelationEntry, names: &Names) -> Result<RelationTerm> {
-    let key = format!("relation {}", entry.name);
-    let given = [
-        ("direction", entry.direction.is_some()),
-        ("angle_deg", entry.angle_deg.is_some()),
-        ("tolerance_deg", entry.tolerance_deg.is_some()),
-        ("tolerance_m", entry.tolerance_m.is_some()),
-    ];
-    let tolerance_rad = || number(&key, "tolerance_deg", entry.tolerance_deg).map(f64::to_radians);
-    let relation = match entry.kind {
-        RelationKind::Orientation => {
-            only(&key, &given, &["angle_deg", "tolerance_deg"])?;
-            let angle_rad = number(&key, "angle_deg", entry.angle_deg)?.to_radians();
-            Relation::Orientation(RelativeOrientation { angle_rad, tolerance_rad: tolerance_rad()? })
-        }
-        RelationKind::Location => {
-            only(&key, &given, &["direction", "tolerance_deg"])?;
-            let direction = direction(&key, entry.direction)?;
-            Relation::Location(RelativeLocation { direction, tolerance_rad: tolerance_rad()? })
-        }
-        RelationKind::Connectivity => {
-            only(&key, &given, &["tolerance_m"])?;
-            Relation::Connectivity(Connectivity { tolerance_m: number(&key, "tolerance_m", entry.tolerance_m)? })
-        }
-        RelationKind::Rectangular => {
-            only(&key, &given, &["tolerance_deg"])?;
-            Relation::Rectangular(Rectangular { tolerance_rad: tolerance_rad()? })
-        }
-        RelationKind::Parallel => {
-            only(&key, &given, &["tolerance_deg"])?;
-            Relation::Parallel(Parallel { tolerance_rad: tolerance_rad()? })
-        }
-    };
-    Ok(RelationTerm { pairs: pairs(&key, &entry.pairs, names)?, name: entry.name.clone(), relation })
-}
-
-fn pairs(key: &str, entries: &[(String, String)], names: &Names) -> Result<Vec<(usize, usize)>> {
-    let mut out = Vec::with_capacity(entries.len());
-    for (first, second) in entries {
-        let pair = (names.index(key, first)?, names.index(key, second)?);
-        if pair.0 == pair.1 {
-            return Err(at(key, format!("\"{first}\" is paired with itself")).mend("a relation ties two parts"));
-        }
-        out.push(pair);
-    }
-    Ok(out)
 }
 
 fn accept(entry: &AcceptEntry, names: &Names) -> Result<Accept> {
@@ -267,6 +118,28 @@ fn body(entry: Option<&BodyEntry>, names: &Names) -> Result<Body> {
         flaps: four(flaps)?,
         tucks: four(tucks)?,
     }))
+}
+
+/// Joints form trees: one parent for each child, and nothing hangs on itself.
+fn check_joints(template: &Template) -> Result<()> {
+    let parent_of = |part: usize| template.joints.iter().find(|joint| joint.child == part).map(|joint| joint.parent);
+    for (k, joint) in template.joints.iter().enumerate() {
+        let key = || {
+            let [parent, child] = [joint.parent, joint.child].map(|p| &template.parts[p].name);
+            format!("joint {parent} to {child}")
+        };
+        if template.joints[..k].iter().any(|other| other.child == joint.child) {
+            return Err(at(key(), "another joint has this child already").mend("each part hangs on one other at most"));
+        }
+        let mut above = Some(joint.parent);
+        for _ in &template.parts {
+            above = above.and_then(parent_of);
+        }
+        if above.is_some() {
+            return Err(at(key(), "it goes round in a circle").mend("joints form trees"));
+        }
+    }
+    Ok(())
 }
 
 fn check_terms(template: &Template) -> Result<()> {
