@@ -1,8 +1,8 @@
 //! Exact depth: one ray for each pixel against the scene.
 
 use crate::bvh::{Bvh, Candidates, Ray};
+use crate::camera::Kinect;
 use crate::frustum::Frustum;
-use crate::kinect::Kinect;
 use crate::random::{uniform, Stream};
 use crate::vector::{cross, dot, norm, sub, Vec3};
 use crate::{Scene, SensorError};

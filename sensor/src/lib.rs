@@ -4,6 +4,7 @@
 //! Everything is in the camera's optical frame (x right, y down, z forward), in metres and pixels.
 
 mod bvh;
+mod camera;
 mod cast;
 mod clearance;
 mod error;
@@ -14,10 +15,11 @@ mod random;
 mod shade;
 mod vector;
 
+pub use camera::Kinect;
 pub use cast::{cast_exact, Hit};
 pub use clearance::close_groups;
 pub use error::SensorError;
-pub use kinect::{simulate, Kinect, Reading};
+pub use kinect::{simulate, Reading};
 pub use shade::Rgb;
 
 /// Three corners in metres.

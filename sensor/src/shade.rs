@@ -1,7 +1,7 @@
 //! A plain picture beside the depth: Lambert's law under a lamp at the camera and a lamp above it.
 
+use crate::camera::Kinect;
 use crate::cast::Hit;
-use crate::kinect::Kinect;
 use crate::vector::{cross, dot, norm, sub};
 use crate::Scene;
 

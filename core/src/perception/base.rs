@@ -2,8 +2,8 @@
 
 use super::enclosure::Enclosure;
 use super::parting::Walls;
-use super::planes::Segment;
 use super::readings::Readings;
+use super::segment::Segment;
 use super::PerceptionSettings;
 use crate::geometry::{convex_hull, Moments, Plane, PlaneFrame, Point2};
 

@@ -14,6 +14,7 @@ mod ransac;
 mod readings;
 mod scene;
 mod scene_planes;
+mod segment;
 mod settings;
 mod sites;
 mod support;

@@ -1,6 +1,6 @@
-use super::planes::Segment;
 use super::readings::Readings;
 use super::scene::Segments;
+use super::segment::Segment;
 use crate::geometry::{convex_hull, minimum_rectangle, Plane, PlaneFrame, Point2, Rectangle};
 
 /// Adds a segment of a group with its hull and minimum bounding rectangle, its normal turned to the viewpoint.

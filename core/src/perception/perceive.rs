@@ -1,8 +1,9 @@
 use super::base::SupportBand;
 use super::clusters::{clusters, readings_of_things};
 use super::outline::push_segment;
-use super::planes::{planar_segments, Segment};
+use super::planes::planar_segments;
 use super::readings::Readings;
+use super::segment::Segment;
 use super::support::{find_ground, Ground};
 use super::{PerceptionSettings, Scene, Segments};
 use crate::cloud::CloudView;

@@ -4,6 +4,7 @@ use super::components::{components, NONE};
 use super::crease::fold;
 use super::ransac::PlaneSearch;
 use super::readings::Readings;
+use super::segment::Segment;
 use super::sites::Sites;
 use super::PerceptionSettings;
 use crate::geometry::{Moments, Plane};
@@ -20,16 +21,6 @@ const ROUNDS: usize = 3;
 const FOLD_PASSES: usize = 2;
 /// Share of a cell's readings that makes a plane its owner.
 const OWNER_SHARE: f64 = 0.3;
-
-/// A plane and its readings, in input order.
-#[derive(Debug, Clone)]
-pub struct Segment {
-    pub plane: Plane,
-    pub rms_m: f64,
-    /// Of the cells that its readings are in.
-    pub area_m2: f64,
-    pub points: Vec<u32>,
-}
 
 /// Planar segments of a cluster, in the order in which they were found.
 pub fn planar_segments(readings: &Readings, cluster: &[u32], settings: &PerceptionSettings, seed: u64) -> Vec<Segment> {

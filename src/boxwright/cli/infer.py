@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -24,11 +23,10 @@ from boxwright.cli.options import (
     ViewpointOption,
     WeightsOption,
 )
+from boxwright.cli.outcome import Outcome
 
 if TYPE_CHECKING:
-    from boxwright.cli.failures import Refusal
     from boxwright.cli.pictures import Drawer
-    from boxwright.types import Model
 
 Clouds = Annotated[
     list[Path], typer.Argument(metavar="CLOUD...", help="Clouds: .pcd, .ply, .npy, or depth images .png.")
@@ -37,16 +35,6 @@ OutOption = Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="
 JobsOption = Annotated[int, typer.Option("--jobs", min=1, help="Inputs worked on at once.")]
 FigureOption = Annotated[bool, typer.Option("--figure", help="Draw NAME.png beside each model.json.")]
 VerboseOption = Annotated[bool, typer.Option("--verbose", help="Print the time of each stage too.")]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """One input's answer, or why there is none."""
-
-    cloud: Path
-    model: Model | None = None
-    files: tuple[Path, ...] = ()
-    refusal: Refusal | None = None
 
 
 def infer(

@@ -12,7 +12,7 @@ from boxwright.cli.screen import console, number, table
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from boxwright.cli.infer import Outcome
+    from boxwright.cli.outcome import Outcome
     from boxwright.types import Model, Object
 
 
