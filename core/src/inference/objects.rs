@@ -61,10 +61,13 @@ fn best_object(
         let plan = model.plans.for_size(free, settings.max_candidates);
         let ranking = rank_staged(&model.template, &model.weights, tables, plan, taken, RANKED, settings);
         let alternatives = ranking.candidates.len().saturating_sub(1);
-        let candidate = ranking.candidates.into_iter().find(|c| model.template.accept.allows(&c.assignment))?;
+        let mut ranked = ranking.candidates.into_iter().enumerate();
+        let (place, candidate) = ranked.find(|(_, c)| model.template.accept.allows(&c.assignment))?;
+        // The ranking proves its first only: of each combination of the fixed parts it holds one completion.
+        let gap = if place == 0 { ranking.gap } else { f64::INFINITY };
         let passes = candidate.score >= model.weights.accept_score;
         let feature_vector = tables.feature_vector(&model.template, &candidate.assignment);
-        passes.then_some(FoundObject { model: number, candidate, feature_vector, gap: ranking.gap, alternatives })
+        passes.then_some(FoundObject { model: number, candidate, feature_vector, gap, alternatives })
     });
     contenders.reduce(|best, next| if next.candidate.score > best.candidate.score { next } else { best })
 }
