@@ -66,7 +66,7 @@ impl Perception {
 
     #[getter]
     fn groups<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
-        PyArray1::from_iter(py, self.scene.segments.group.iter().map(|&g| g as i32))
+        PyArray1::from_iter(py, self.scene.segments.group.iter().copied())
     }
 
     #[getter]

@@ -79,7 +79,7 @@ class Perception:
 
     @property
     def groups(self) -> NDArray[np.int32]:
-        """(S,) number of the cluster that each segment belongs to, from 0, the largest first."""
+        """(S,) number of the cluster that each segment belongs to, from 0, the largest first; -1: support and room."""
 
     @property
     def labels(self) -> NDArray[np.int32]:
@@ -101,7 +101,7 @@ def perceive(
     height: int,
     viewpoint: tuple[float, float, float] | None = None,
     up: tuple[float, float, float] | None = None,
-    **settings: float,
+    **settings: float | str,
 ) -> Perception: ...
 
 # --- sensor ---

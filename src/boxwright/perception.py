@@ -9,7 +9,7 @@ from boxwright.types import Cloud
 __all__ = ["Perception", "perceive"]
 
 
-def perceive(cloud: Cloud, *, up: tuple[float, float, float] | None = None, **settings: float) -> Perception:
+def perceive(cloud: Cloud, *, up: tuple[float, float, float] | None = None, **settings: float | str) -> Perception:
     """Support plane, clusters and planar segments of a cloud, as in the paper's section "Perception".
 
     `up` is the direction away from the support in the input's frame, any length; None finds it. `settings` replace

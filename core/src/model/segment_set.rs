@@ -42,12 +42,12 @@ impl SegmentSet {
         }
     }
 
-    /// One set for each group of the scene, in the groups' order.
+    /// One set for each group of the scene (the background is none), in the groups' order.
     pub fn by_group(scene: &Scene) -> Vec<Self> {
         let groups = &scene.segments.group;
-        let count = groups.iter().map(|&g| g as usize + 1).max().unwrap_or(0);
+        let count = groups.iter().map(|&g| g + 1).max().unwrap_or(0);
         (0..count)
-            .map(|g| (0..groups.len()).filter(|&s| groups[s] as usize == g).collect::<Vec<_>>())
+            .map(|g| (0..groups.len()).filter(|&s| groups[s] == g).collect::<Vec<_>>())
             .filter(|indices| !indices.is_empty())
             .map(|indices| Self::new(scene, &indices))
             .collect()

@@ -1,5 +1,21 @@
 use crate::geometry::{Plane, Rectangle, Vec3};
 
+/// What ends a segment at one side of its rectangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// The surface itself ends there: what is seen beyond it lies farther away, or nothing is.
+    Edge,
+    /// Another segment goes on from there.
+    Crease,
+    /// Something nearer hides what may follow.
+    Occluded,
+    /// The frame ends there.
+    Border,
+}
+
+/// Group of the support plane and of walls and floors, which belong to no thing.
+pub const BACKGROUND: i32 = -1;
+
 /// Planar segments as a structure of arrays; entry `s` of each array belongs to segment `s`.
 #[derive(Debug, Clone, Default)]
 pub struct Segments {
@@ -11,8 +27,10 @@ pub struct Segments {
     pub hulls: Vec<Vec<Vec3>>,
     /// Root mean square distance of the points from the plane, metres.
     pub rms: Vec<f64>,
-    /// Number of the cluster (the group of things that touch), from 0.
-    pub group: Vec<u32>,
+    /// What ends the segment at each side of its rectangle, side `k` running from corner `k` to the next.
+    pub edges: Vec<[EdgeKind; 4]>,
+    /// Number of the cluster (the group of things that touch), from 0; `BACKGROUND` for the support and the room.
+    pub group: Vec<i32>,
     /// Point indices of all segments, one after another; those of `s` are `point_indices[point_starts[s]..point_starts[s + 1]]`.
     pub point_indices: Vec<u32>,
     /// One longer than the number of segments.

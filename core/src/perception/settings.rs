@@ -3,10 +3,19 @@ use crate::geometry::Vec3;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
+/// Which front end finds the planes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PlaneFinder {
+    /// The paper's chain: support, Euclidean clusters, sequential RANSAC.
+    Ransac,
+}
+
 /// What perception can be told; every default of the algorithm is here and nowhere else.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PerceptionSettings {
+    pub planes: PlaneFinder,
     /// The direction away from the support, input's frame; `None` finds it.
     #[serde(skip)]
     pub up: Option<Vec3>,
@@ -60,6 +69,7 @@ pub struct PerceptionSettings {
 impl Default for PerceptionSettings {
     fn default() -> Self {
         Self {
+            planes: PlaneFinder::Ransac,
             up: None,
             up_tolerance_rad: 15f64.to_radians(),
             sigma_floor_m: 0.0006,

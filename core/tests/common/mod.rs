@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use boxwright_core::geometry::{Plane, Rectangle, Vec3};
-use boxwright_core::perception::{Scene, Segments};
+use boxwright_core::perception::{EdgeKind, Scene, Segments};
 
 pub fn rectangle(center: [f64; 3], half_a: [f64; 3], half_b: [f64; 3]) -> Rectangle {
     let (c, a, b) = (Vec3::from(center), Vec3::from(half_a), Vec3::from(half_b));
@@ -21,6 +21,7 @@ pub fn scene(rectangles: Vec<Rectangle>) -> Scene {
         segments.hulls.push(rectangle.corners.to_vec());
         segments.rectangles.push(rectangle);
         segments.rms.push(0.001);
+        segments.edges.push([EdgeKind::Edge; 4]);
         segments.group.push(0);
         segments.point_indices.extend((0..10).map(|p| (k * 10 + p) as u32));
         segments.point_starts.push(segments.point_indices.len() as u32);

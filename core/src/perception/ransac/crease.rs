@@ -1,8 +1,8 @@
 //! Panels that meet at a few degrees lie in one plane's tolerance: a segment that is folded becomes two.
 
-use super::readings::Readings;
-use super::segment::Segment;
-use super::PerceptionSettings;
+use super::super::readings::Readings;
+use super::super::segment::Segment;
+use super::super::PerceptionSettings;
 use crate::geometry::{minimum_rectangle, Plane, PlaneFrame, Point2, Vec3};
 use nalgebra::{SMatrix, SVector};
 

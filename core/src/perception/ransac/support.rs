@@ -1,9 +1,9 @@
 //! Which way is up, and on which plane the things stand.
 
+use super::super::readings::Readings;
+use super::super::PerceptionSettings;
 use super::footing::{footing, seen_through, Footing};
-use super::readings::Readings;
 use super::scene_planes::ScenePlanes;
-use super::PerceptionSettings;
 use crate::error::{InputError, Result};
 use crate::geometry::{Plane, Vec3};
 

@@ -1,4 +1,4 @@
-use super::readings::Readings;
+use super::super::readings::Readings;
 use crate::geometry::Vec3;
 
 /// Cells along one axis: 21 bits each in a key.

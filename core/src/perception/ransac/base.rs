@@ -1,10 +1,10 @@
 //! The base of an open box lies within the support's tolerance: only what the walls enclose tells the two apart.
 
+use super::super::readings::Readings;
+use super::super::segment::Segment;
+use super::super::PerceptionSettings;
 use super::enclosure::Enclosure;
 use super::parting::Walls;
-use super::readings::Readings;
-use super::segment::Segment;
-use super::PerceptionSettings;
 use crate::geometry::{convex_hull, Moments, Plane, PlaneFrame, Point2};
 
 /// Upright segments without which nothing is enclosed.

@@ -1,11 +1,11 @@
 //! Euclidean clusters of what stands above the support.
 
+use super::super::readings::Readings;
+use super::super::PerceptionSettings;
 use super::components::{components, UnionFind, NONE};
 use super::footing::extent;
-use super::readings::Readings;
 use super::support::Ground;
 use super::voxels::Voxels;
-use super::PerceptionSettings;
 use crate::geometry::{convex_hull, hull_contains, Plane, PlaneFrame, Point2, Vec3};
 
 /// Cells of the clustering, at most.

@@ -1,7 +1,7 @@
-use super::ransac::{PlaneSearch, SitePlane};
-use super::readings::Readings;
+use super::super::readings::Readings;
+use super::super::PerceptionSettings;
+use super::draws::{PlaneSearch, SitePlane};
 use super::sites::Sites;
-use super::PerceptionSettings;
 use crate::geometry::{minimum_rectangle, Moments, Plane, PlaneFrame, Vec3};
 
 /// Planes of the scene that are looked at.

@@ -1,8 +1,8 @@
 //! Planes of a set of sites, one after another (Fischler and Bolles 1981; triples from a neighbourhood: Schnabel et al. 2007).
 
+use super::super::PerceptionSettings;
 use super::components::{components, NONE};
 use super::sites::Sites;
-use super::PerceptionSettings;
 use crate::geometry::{Moments, Plane, SplitMix64, Vec3};
 
 /// Hypotheses of a draw that are refined and compared by their largest piece.

@@ -1,4 +1,4 @@
-use super::readings::Readings;
+use super::super::readings::Readings;
 use super::voxels::{Neighbours, Voxels};
 use crate::geometry::{Moments, Vec3};
 

@@ -1,12 +1,12 @@
 //! Planar segments of one cluster: sequential RANSAC over sites, then every reading to its nearest plane.
 
+use super::super::readings::Readings;
+use super::super::segment::Segment;
+use super::super::PerceptionSettings;
 use super::components::{components, NONE};
 use super::crease::fold;
-use super::ransac::PlaneSearch;
-use super::readings::Readings;
-use super::segment::Segment;
+use super::draws::PlaneSearch;
 use super::sites::Sites;
-use super::PerceptionSettings;
 use crate::geometry::{Moments, Plane};
 
 /// Sites of one cluster, at most.

@@ -1,6 +1,6 @@
+use super::super::PerceptionSettings;
 use super::components::{components, NONE};
 use super::sites::Sites;
-use super::PerceptionSettings;
 use crate::geometry::{convex_hull, hull_contains, Plane, PlaneFrame, Point2, Vec3};
 use std::collections::HashSet;
 
