@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from boxwright.io.truth import load_truth, read_truth_labels
+from boxwright.io.truth import load_truth, read_truth_faces, read_truth_labels
 from boxwright.simulation import make_frame, write_set
 
 
@@ -20,3 +20,4 @@ def test_a_set_can_be_made_longer_and_read_back(tmp_path: Path) -> None:
     frame = make_frame("pizza", 4, 1)
     assert load_truth(whole / "pizza_0001.truth.json") == frame.truth
     assert np.array_equal(read_truth_labels(whole / "pizza_0001.labels.npz"), frame.labels)
+    assert np.array_equal(read_truth_faces(whole / "pizza_0001.labels.npz"), frame.faces)

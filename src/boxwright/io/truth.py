@@ -35,6 +35,21 @@ def read_truth_labels(path: str | PathLike[str]) -> NDArray[np.uint16]:
     return read_flat_array(path, "labels", np.uint16, image_allowed=True)
 
 
-def write_truth_labels(labels: NDArray[np.uint16], path: str | PathLike[str]) -> None:
-    """Write the labels (N,) of a labelled frame; equal labels give equal bytes. Raises OSError when it cannot."""
-    write_flat_arrays(path, {"labels": labels})
+def read_truth_faces(path: str | PathLike[str]) -> NDArray[np.uint16]:
+    """Read the faces of a labelled frame: (N,), for each point the number of the flat face that it lies on, 0 for none.
+
+    Panels come first (their number is the label), then the faces that are no panels (docs/formats.md).
+
+    Raises OSError when the file cannot be read, ValueError naming file and array when there is none or it does not fit.
+    """
+    return read_flat_array(path, "faces", np.uint16, image_allowed=True)
+
+
+def write_truth_labels(
+    labels: NDArray[np.uint16], path: str | PathLike[str], faces: NDArray[np.uint16] | None = None
+) -> None:
+    """Write the labels (N,) of a labelled frame, and the faces (N,) where they are known.
+
+    Equal arrays give equal bytes. Raises OSError when the file cannot be written.
+    """
+    write_flat_arrays(path, {"labels": labels} if faces is None else {"labels": labels, "faces": faces})

@@ -8,11 +8,14 @@ from numpy.typing import NDArray
 
 from boxwright import _core
 from boxwright.simulation.drawing import CATEGORIES, NONE, draw_scene
+from boxwright.simulation.faces import flat_faces, unit_normals
 from boxwright.simulation.panels import Panel
 from boxwright.simulation.poses import apply
 from boxwright.simulation.scene import PlacedBox, Scene
 from boxwright.simulation.views import up_in_camera
-from boxwright.types import Camera, TrueBox, TruePart, Truth
+from boxwright.types import Camera, TrueBox, TrueFace, TruePart, Truth
+
+Ids = NDArray[np.int32]
 
 
 class Frame(msgspec.Struct, frozen=True, eq=False):
@@ -26,6 +29,8 @@ class Frame(msgspec.Struct, frozen=True, eq=False):
     """(N, 3) red, green, blue."""
     labels: NDArray[np.uint16]
     """(N,) index of the part + 1, 0 for none."""
+    faces: NDArray[np.uint16]
+    """(N,) as `labels` on panels, then the index of the face + 1 + the number of parts; 0 for none and where round."""
     truth: Truth
 
 
@@ -72,24 +77,55 @@ def render(scene: Scene, camera: Camera, seed: int, name: str) -> Frame:
     """What the camera reports of a scene, and the truth about it. Same arguments, same bits."""
     panels = [(index, placed, panel) for index, placed in enumerate(scene.boxes) for panel in placed.panels]
     solids = [
-        (apply(placed.world_from_box, panel.triangles), placed.box.color, k + 1)
+        (apply(placed.world_from_box, panel.triangles), placed.box.color, np.full(len(panel.triangles), k + 1))
         for k, (_, placed, panel) in enumerate(panels)
     ]
-    solids += [(body.triangles, body.color, 0) for body in scene.bodies]
-    sizes = [len(triangles) for triangles, _, _ in solids]
+    solids += [(body.triangles, body.color, ids) for body, ids in zip(scene.bodies, _body_ids(scene), strict=True)]
     triangles = apply(scene.camera_from_world, np.concatenate([triangles for triangles, _, _ in solids]))
+    surface_ids = np.concatenate([ids for _, _, ids in solids]).astype(np.int32)
     points, ids, colors = _core.simulate_depth(
         triangles,
-        np.repeat(np.array([label for _, _, label in solids], dtype=np.int32), sizes),
-        np.repeat(np.array([color for _, color, _ in solids], dtype=np.uint8), sizes, axis=0),
+        surface_ids,
+        np.repeat(np.array([color for _, color, _ in solids], np.uint8), [len(t) for t, _, _ in solids], axis=0),
         seed,
         (camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height),
     )
-    counts = np.bincount(ids, minlength=len(panels) + 1)[1:]
-    parts = [_true_part(scene, *panel, int(count)) for panel, count in zip(panels, counts, strict=True)]
+    counts = np.bincount(ids, minlength=len(panels) + 1)
+    parts = [_true_part(scene, *panel, int(count)) for panel, count in zip(panels, counts[1:], strict=False)]
+    faces, seen = _seen_faces(ids, len(panels))
+    true_faces = [_true_face(triangles[surface_ids == k], int(counts[k])) for k in seen]
     boxes = [_true_box(index, placed) for index, placed in enumerate(scene.boxes)]
-    truth = Truth(name, scene.category, camera, up_in_camera(scene.camera_from_world), tuple(boxes), tuple(parts))
-    return Frame(points, camera.width, camera.height, colors, ids.astype(np.uint16), truth)
+    up = up_in_camera(scene.camera_from_world)
+    truth = Truth(name, scene.category, camera, up, tuple(boxes), tuple(parts), tuple(true_faces))
+    labels = np.where(ids <= len(panels), ids, 0).astype(np.uint16)
+    return Frame(points, camera.width, camera.height, colors, labels, faces, truth)
+
+
+def _body_ids(scene: Scene) -> list[NDArray[np.int64]]:
+    """For each body without panels the id of each triangle: of its flat face, after the panels'; 0 where round."""
+    last = sum(len(placed.panels) for placed in scene.boxes)
+    ids = []
+    for body in scene.bodies:
+        faces = flat_faces(body.triangles)
+        ids.append(np.where(faces < 0, 0, faces + last + 1))
+        last += int(faces.max()) + 1
+    return ids
+
+
+def _seen_faces(ids: Ids, panels: int) -> tuple[NDArray[np.uint16], list[int]]:
+    """Ids with those beyond the panels' numbered anew, without gaps; and which ids these were."""
+    seen = [int(k) for k in np.unique(ids) if k > panels]
+    new = np.arange(max([panels, *seen]) + 1)
+    new[seen] = panels + 1 + np.arange(len(seen))
+    return new[ids].astype(np.uint16), seen
+
+
+def _true_face(triangles: NDArray[np.float64], visible_px: int) -> TrueFace:
+    """The plane of a face, camera frame, its normal towards the camera."""
+    normal = unit_normals(triangles[:1])[0]
+    distance = float(normal @ triangles[0, 0])
+    x, y, z = (float(c) for c in (-normal if distance > 0 else normal))
+    return TrueFace((x, y, z), -abs(distance), visible_px)
 
 
 def _true_box(index: int, placed: PlacedBox) -> TrueBox:

@@ -73,4 +73,4 @@ def write_frame(folder: Path, frame: Frame) -> None:
         viewpoint=VIEWPOINT,
     )
     save_truth(frame.truth, folder / f"{name}.truth.json")
-    write_truth_labels(frame.labels, folder / f"{name}.labels.npz")
+    write_truth_labels(frame.labels, folder / f"{name}.labels.npz", frame.faces)

@@ -4,7 +4,7 @@ from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, Par
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
-from boxwright.types.truth import Camera, TrueBox, TruePart, Truth
+from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
 
 __all__ = [
     "Camera",
@@ -24,6 +24,7 @@ __all__ = [
     "Source",
     "SupportPlane",
     "TrueBox",
+    "TrueFace",
     "TruePart",
     "Truth",
 ]

@@ -40,8 +40,23 @@ class TruePart(msgspec.Struct, frozen=True):
     visible_px: int
 
 
+class TrueFace(msgspec.Struct, frozen=True):
+    """A flat face that is no panel: of a floor, a wall, a table, a thing. Plane normal . p = distance, input's frame.
+
+    The normal is turned towards the camera.
+    """
+
+    normal: Vector
+    distance: float
+    visible_px: int
+
+
 class Truth(msgspec.Struct, frozen=True):
-    """A frame's truth. Label `k` of `NAME.labels.npz` is `parts[k - 1]`; 0 is none."""
+    """A frame's truth. Label `k` of `NAME.labels.npz` is `parts[k - 1]`; 0 is none.
+
+    So are the first of its `faces`; those beyond the parts go on with this record's `faces`: `P + k` is `faces[k - 1]`
+    where there are P parts. Sets that do not tell faces have none here and no such array.
+    """
 
     name: str
     category: str
@@ -49,3 +64,4 @@ class Truth(msgspec.Struct, frozen=True):
     up: Vector
     boxes: tuple[TrueBox, ...]
     parts: tuple[TruePart, ...]
+    faces: tuple[TrueFace, ...] = ()
