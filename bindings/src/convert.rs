@@ -31,10 +31,11 @@ pub fn named(what: &str, settings: Option<&Bound<'_, PyDict>>) -> PyResult<Map<S
     let mut values = Map::new();
     for (name, value) in settings.into_iter().flat_map(|s| s.iter()) {
         let name: String = name.extract()?;
-        let value = match (value.extract::<u64>(), value.extract::<f64>()) {
-            (Ok(whole), _) => Value::from(whole),
-            (_, Ok(real)) => Value::from(real),
-            _ => return Err(PyTypeError::new_err(format!("{what} setting {name} is no number"))),
+        let value = match (value.extract::<u64>(), value.extract::<f64>(), value.extract::<String>()) {
+            (Ok(whole), _, _) => Value::from(whole),
+            (_, Ok(real), _) => Value::from(real),
+            (_, _, Ok(text)) => Value::from(text),
+            _ => return Err(PyTypeError::new_err(format!("{what} setting {name} is neither number nor text"))),
         };
         values.insert(name, value);
     }
