@@ -1,6 +1,7 @@
 //! From a cloud to planar segments with rectangles. Knows no template: meaning begins in `model`.
 
 mod clock;
+mod grid;
 mod outline;
 mod perceive;
 mod ransac;

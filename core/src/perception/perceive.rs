@@ -1,3 +1,4 @@
+use super::grid::perceive_on_grid;
 use super::ransac::perceive_by_ransac;
 use super::{PerceptionSettings, PlaneFinder, Scene};
 use crate::cloud::CloudView;
@@ -11,6 +12,7 @@ use crate::error::Result;
 /// `InputError` where the cloud has no finite reading, several directions could be up, or the support is seen from below.
 pub fn perceive(cloud: &CloudView, settings: &PerceptionSettings) -> Result<Scene> {
     match settings.planes {
-        PlaneFinder::Ransac => perceive_by_ransac(cloud, settings),
+        PlaneFinder::Grid if cloud.is_organized() => perceive_on_grid(cloud, settings),
+        _ => perceive_by_ransac(cloud, settings),
     }
 }

@@ -29,14 +29,16 @@ impl<'a> Readings<'a> {
     /// # Errors
     /// `InputError` where there is none.
     pub fn finite_indices(&self) -> Result<Vec<u32>> {
-        let is_reading = |p: &[f32; 3]| p.iter().all(|c| c.abs() < FARTHEST_COORDINATE_M);
-        let all = self.points.iter().enumerate();
-        let indices: Vec<u32> = all.filter(|(_, p)| is_reading(p)).map(|(i, _)| i as u32).collect();
+        let indices: Vec<u32> = (0..self.points.len() as u32).filter(|&i| self.is_reading(i)).collect();
         if indices.is_empty() {
             let problem = format!("no finite readings among {} points", self.points.len());
             return Err(InputError::new(problem).mend("a point needs three finite coordinates in metres"));
         }
         Ok(indices)
+    }
+
+    pub fn is_reading(&self, index: u32) -> bool {
+        self.points[index as usize].iter().all(|c| c.abs() < FARTHEST_COORDINATE_M)
     }
 
     pub fn point(&self, index: u32) -> Vec3 {

@@ -9,6 +9,8 @@ use serde_json::{Map, Value};
 pub enum PlaneFinder {
     /// The paper's chain: support, Euclidean clusters, sequential RANSAC.
     Ransac,
+    /// Ours: planes grow on the image grid.
+    Grid,
 }
 
 /// What perception can be told; every default of the algorithm is here and nowhere else.

@@ -2,17 +2,17 @@
 
 mod base;
 mod chain;
-mod clusters;
-mod components;
+pub mod clusters;
+pub mod components;
 mod crease;
 mod draws;
-mod enclosure;
+pub mod enclosure;
 mod footing;
-mod parting;
+pub mod parting;
 mod planes;
-mod scene_planes;
-mod sites;
-mod support;
+pub mod scene_planes;
+pub mod sites;
+pub mod support;
 mod voxels;
 
 pub use chain::perceive_by_ransac;

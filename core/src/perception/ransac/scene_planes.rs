@@ -11,7 +11,9 @@ const MIN_SCENE_PLANE_M2: f64 = 0.02;
 /// How far from the first cell of a triple the other two may lie, metres.
 const SCENE_REACH_M: f64 = 0.25;
 /// Cells of the scene, at most.
-const MAX_SCENE_SITES: usize = 60_000;
+pub const MAX_SCENE_SITES: usize = 60_000;
+/// Sine of the angle by which a site's surroundings may lean from a plane that is given.
+const MAX_LEAN_SINE: f64 = 0.35;
 /// Noise below this many times the expected is as expected.
 const AS_EXPECTED: f64 = 1.5;
 /// Noise is taken to be at most this many times the expected.
@@ -43,6 +45,20 @@ impl ScenePlanes {
             scale = (scale * more).min(MAX_NOISE_SCALE);
             readings.scale_noise(scale);
         }
+    }
+
+    /// Planes that are known already, each with whether it is too large to be a thing's.
+    pub fn of_known(sites: Sites, known: &[(Plane, bool)]) -> Self {
+        let on_plane = |plane: &Plane| {
+            let is_on = |s: usize| {
+                plane.height_of(&sites.centers[s]).abs() <= sites.tolerance_m[s]
+                    && sites.normals[s].cross(&plane.normal).norm() <= MAX_LEAN_SINE
+            };
+            (0..sites.len()).filter(|&s| is_on(s)).map(|s| s as u32).collect::<Vec<u32>>()
+        };
+        let planes: Vec<SitePlane> =
+            known.iter().map(|(plane, _)| SitePlane { plane: *plane, sites: on_plane(plane) }).collect();
+        Self { sites, planes, is_large: known.iter().map(|k| k.1).collect() }
     }
 
     fn find_once(readings: &Readings, indices: &[u32], settings: &PerceptionSettings) -> Self {

@@ -33,6 +33,23 @@ impl Sites {
         Self { voxels, neighbours, moments, centers, tolerance_m, normals }
     }
 
+    /// Cells of few readings whose surfaces are known: each cell has the normal of its first reading.
+    pub fn of_known_normals(
+        readings: &Readings,
+        indices: &[u32],
+        size_m: f64,
+        max_cells: usize,
+        normal_of: impl Fn(u32) -> Vec3,
+    ) -> Self {
+        let voxels = Voxels::new(readings, indices, size_m, max_cells);
+        let neighbours = voxels.neighbours();
+        let moments: Vec<Moments> = (0..voxels.len()).map(|c| cell_moments(readings, voxels.members_of(c))).collect();
+        let centers: Vec<Vec3> = moments.iter().map(Moments::mean).collect();
+        let tolerance_m = centers.iter().map(|c| readings.tolerance_m(c)).collect();
+        let normals = (0..voxels.len()).map(|c| normal_of(voxels.members_of(c)[0])).collect();
+        Self { voxels, neighbours, moments, centers, tolerance_m, normals }
+    }
+
     pub fn len(&self) -> usize {
         self.centers.len()
     }

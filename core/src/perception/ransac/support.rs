@@ -38,6 +38,8 @@ pub struct Ground {
     pub up: Vec3,
     /// `None` where the cloud shows none.
     pub support: Option<Plane>,
+    /// Number of the plane that up was read from, among those of the scene.
+    pub chosen: Option<usize>,
     /// Planes too large to belong to a thing (walls of the room), without the support.
     pub room: Vec<Plane>,
     pub warnings: Vec<String>,
@@ -54,23 +56,37 @@ pub fn find_ground(
     settings: &PerceptionSettings,
 ) -> Result<Ground> {
     let scene = ScenePlanes::find(readings, indices, settings);
-    let candidates = footings(&scene, settings, readings.viewpoint.as_ref());
+    ground_among(&scene, readings, organized, settings)
+}
+
+/// The same among planes that are known.
+///
+/// # Errors
+/// As of `find_ground`.
+pub fn ground_among(
+    scene: &ScenePlanes,
+    readings: &Readings,
+    organized: bool,
+    settings: &PerceptionSettings,
+) -> Result<Ground> {
+    let candidates = footings(scene, settings, readings.viewpoint.as_ref());
     let Some((chosen, footing)) = choose(&candidates, organized, settings, readings.viewpoint.is_some())? else {
         return Ok(no_plane(organized, settings));
     };
     let plane = scene.refit(readings, chosen, &footing.plane);
-    refuse_from_below(readings, &scene, chosen, &Footing { plane, ..footing.clone() })?;
+    refuse_from_below(readings, scene, chosen, &Footing { plane, ..footing.clone() })?;
     let is_ground = footing.free_cells as f64 >= MIN_FREE_SHARE * footing.ground_cells as f64;
     let is_room = |&p: &usize| p != chosen && scene.is_large[p];
     let room = (0..scene.planes.len()).filter(is_room).map(|p| scene.planes[p].plane).collect();
-    Ok(Ground { up: plane.normal, support: is_ground.then_some(plane), room, warnings: vec![] })
+    let support = is_ground.then_some(plane);
+    Ok(Ground { up: plane.normal, support, chosen: Some(chosen), room, warnings: vec![] })
 }
 
 /// Every plane with every upward direction that is possible: towards the viewpoint, within reach of a given `up`, else both.
 fn footings(scene: &ScenePlanes, settings: &PerceptionSettings, viewpoint: Option<&Vec3>) -> Vec<(usize, Footing)> {
     let room_sites = scene.room_sites();
     let mut all = Vec::new();
-    for (index, found) in scene.planes.iter().enumerate() {
+    for (index, found) in scene.planes.iter().enumerate().filter(|(_, f)| !f.sites.is_empty()) {
         for plane in [found.plane, found.plane.flipped()] {
             let seen = viewpoint.is_none_or(|v| plane.height_of(v) > 0.0);
             let wanted = match settings.up {
@@ -196,5 +212,5 @@ fn no_plane(organized: bool, settings: &PerceptionSettings) -> Ground {
         (None, false) => (Vec3::z(), "+z"),
     };
     let warnings = vec![format!("no plane to stand on was found; up is {name}")];
-    Ground { up, support: None, room: vec![], warnings }
+    Ground { up, support: None, chosen: None, room: vec![], warnings }
 }

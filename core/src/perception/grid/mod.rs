@@ -1,0 +1,17 @@
+//! The fast front end for clouds with an image grid: planes grow from moments of small cells, in inverse depth.
+
+mod cells;
+mod chain;
+mod ground;
+mod islands;
+mod merge;
+mod noise;
+mod piece;
+mod pixels;
+mod ray_moments;
+mod rays;
+mod regions;
+mod runs;
+mod things;
+
+pub use chain::perceive_on_grid;
