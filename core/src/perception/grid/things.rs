@@ -194,6 +194,6 @@ impl Sorting<'_> {
 }
 
 fn to_runs(points: &[u32], width: u32) -> Vec<Run> {
-    let same = |a: &u32, b: &u32| *b == a + 1 && b % width != 0;
+    let same = |a: &u32, b: &u32| *b == a + 1 && !b.is_multiple_of(width);
     points.chunk_by(same).map(|c| Run { start: c[0], end: c[c.len() - 1] + 1, label: 0 }).collect()
 }
