@@ -57,8 +57,9 @@ check: setup ## Format, lints and types; changes nothing
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-bench: setup ## Time by stage and peak memory from cloud to model, one thread
+bench: setup ## Time by stage and peak memory, one thread; the plane front end beside PCL and Open3D, where installed
 	$(BIN)/python benchmarks/bench.py
+	$(BIN)/python benchmarks/front_end.py
 
 dist: $(VENV)/.installed | tools ## One wheel for Python 3.11 and newer in dist/, installed and tried in a fresh environment
 	rm -rf dist $(DIST_VENV)

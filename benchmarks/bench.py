@@ -1,4 +1,4 @@
-"""From a VGA frame to its model on one thread: time by stage, peak memory, and simple peers beside them.
+"""From a VGA frame to its model on one thread: time by stage, peak memory, and reading beside numpy's.
 
 Run: python benchmarks/bench.py [--frames N] [--repeats R]
 Each frame is read and inferred R times; of its R runs the one with least CPU time counts, then medians are taken over
@@ -105,7 +105,7 @@ def _children_cpu_seconds() -> float:
 
 
 def print_peers(peers: list[tuple[str, str]]) -> None:
-    print(f"\npeers on {PEAK_FRAMES} of the frames (CPU time, medians; not the same work: they tell the scale)")
+    print(f"\nreading, on {PEAK_FRAMES} of the frames (CPU time, medians)")
     for name, line in peers:
         print(f"  {name:<52}{line}")
 

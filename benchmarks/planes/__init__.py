@@ -1,0 +1,1 @@
+"""The plane front end beside peers: frames, truth, scores, runs, tables. Run by benchmarks/front_end.py."""
