@@ -6,7 +6,7 @@ import importlib.util
 from dataclasses import dataclass
 from functools import cache
 
-from planes.ours import PLANES, settings_of
+from planes.ours import PLANES, has_planes
 from planes.pcl_build import build_pcl
 from planes.runs import python_program
 
@@ -38,8 +38,7 @@ PCL = ("organized", "voxels", "classical")
 def program_of(method: Method) -> tuple[list[str] | None, str]:
     """The command that runs it, or None and why there is none."""
     if method.key in OURS:
-        has_it = settings_of(method.key) is not None
-        return (python_program("worker"), "") if has_it else (None, f"no planes={method.key} in this build")
+        return (python_program("worker"), "") if has_planes(method.key) else (None, "this build does not have it")
     if method.key in PCL:
         program, why_not = _pcl()
         return program, why_not

@@ -17,15 +17,8 @@ UP = (0.0, 0.0, 1.0)
 
 
 @cache
-def settings_of(planes: str) -> dict[str, Any] | None:
-    """What chooses a way of finding planes; None where this build does not have it."""
-    if _knows_setting(planes):
-        return {"planes": planes}
-    return {} if planes == "ransac" and not _knows_setting("grid") else None
-
-
-def _knows_setting(planes: str) -> bool:
-    """Perception refuses a setting that it does not have before it looks at the cloud."""
+def has_planes(planes: str) -> bool:
+    """Does this build have this way of finding planes? It refuses a setting before it looks at the cloud."""
     nothing = Cloud(points=np.full((1, 3), np.nan, np.float32), width=1, height=1)
     settings: dict[str, Any] = {"planes": planes}
     try:
@@ -39,4 +32,5 @@ def labels_of(points: NDArray[np.float32], width: int, height: int, planes: str)
     """Segments of a frame seen from the origin, or of an unorganized cloud with z up."""
     organized = height > 1
     cloud = Cloud(points=points, width=width, height=height, viewpoint=ORIGIN if organized else None)
-    return perceive(cloud, up=None if organized else UP, **(settings_of(planes) or {})).labels
+    settings: dict[str, Any] = {"planes": planes}
+    return perceive(cloud, up=None if organized else UP, **settings).labels

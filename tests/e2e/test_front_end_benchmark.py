@@ -38,7 +38,8 @@ def test_rows_are_measured_or_say_why_not(printed: str) -> None:
 
 
 def test_recall_by_role_sums_up_and_misses_are_listed(printed: str) -> None:
-    cells = {line.split("|")[1].strip(): line.split("|")[2].split() for line in printed.splitlines() if " of " in line}
+    rows = [line.split("|") for line in printed.splitlines() if line.startswith("| ") and " of " in line]
+    cells = {row[1].strip(): row[2].split() for row in rows}
     for suffix in ("", ", pairs as two"):
         roles = [cells[role + suffix] for role in ("base", "side", "flap", "tuck", "pair") if role + suffix in cells]
         assert [sum(int(row[k]) for row in roles) for k in (0, 2)] == [int(cells["all" + suffix][k]) for k in (0, 2)]
