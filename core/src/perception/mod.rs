@@ -9,6 +9,7 @@ mod readings;
 mod scene;
 mod segment;
 mod settings;
+mod sides;
 
 pub use perceive::perceive;
 pub use scene::{EdgeKind, Scene, Segments, BACKGROUND};

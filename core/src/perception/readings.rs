@@ -55,6 +55,11 @@ impl<'a> Readings<'a> {
         self.settings.tolerance_m(self.sigma_m(p))
     }
 
+    /// Readings nearer than this to each other belong to one thing, before the noise is counted.
+    pub fn cluster_gap_m(&self) -> f64 {
+        self.settings.cluster_gap_m
+    }
+
     /// Standard deviation of the reading, metres.
     pub fn sigma_m(&self, p: &Vec3) -> f64 {
         self.noise_scale * self.settings.sigma_m(self.range_m(p))

@@ -2,6 +2,7 @@ use super::super::clock::Clock;
 use super::super::outline::push_segment;
 use super::super::readings::Readings;
 use super::super::segment::Segment;
+use super::super::sides::tell_sides;
 use super::super::{PerceptionSettings, Scene, Segments};
 use super::base::SupportBand;
 use super::clusters::{clusters, readings_of_things};
@@ -31,8 +32,10 @@ pub fn perceive_by_ransac(cloud: &CloudView, settings: &PerceptionSettings) -> R
     clock.lap("planes");
     let width = if cloud.is_organized() { cloud.width } else { 0 };
     add_bases(&readings, &indices, width, &ground, &mut found, settings);
-    let segments = outline_all(&readings, &found);
+    let mut segments = outline_all(&readings, &found);
     clock.lap("rectangles");
+    tell_sides(&mut segments, &readings, cloud, ground.support.as_ref());
+    clock.lap("sides");
     let Ground { up, support, warnings, .. } = ground;
     Ok(Scene { up, support, viewpoint: cloud.viewpoint, segments, warnings, stage_seconds: clock.laps })
 }
