@@ -3,6 +3,7 @@
 //! States: part `p` is in state 0 where it stays empty, and in state `s + 1` where it takes member `s` of the segment set.
 
 mod completion;
+mod exact;
 mod exhaustive;
 mod graph;
 mod objects;
@@ -10,6 +11,7 @@ mod potentials;
 mod queue;
 mod staged;
 
+pub use exact::{solve, ExactSettings, Rules, Solution};
 pub use exhaustive::best_exhaustive;
 pub use graph::{RelationGraph, SearchPlan, SearchPlans};
 pub use objects::{find_objects, FoundObject, ObjectModel};

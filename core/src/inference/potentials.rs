@@ -57,6 +57,19 @@ impl Potentials {
         }
     }
 
+    /// J(G) of a complete vector of states, under the relations that are in.
+    pub fn score(&self, states: &[usize]) -> f64 {
+        let own: f64 = self.unary.iter().zip(states).map(|(values, &state)| values[state]).sum();
+        let tied = self.edges.iter().map(|e| e.values[states[e.first] * self.states + states[e.second]]);
+        own + tied.sum::<f64>()
+    }
+
+    /// The largest size of any entry, at least 1: what rounding is measured against.
+    pub fn magnitude(&self) -> f64 {
+        let values = self.unary.iter().chain(self.edges.iter().map(|edge| &edge.values)).flatten();
+        values.fold(1.0, |most, value| f64::max(most, value.abs()))
+    }
+
     /// The part at the other end of edge `k`.
     pub fn other_end(&self, k: usize, part: usize) -> usize {
         let edge = &self.edges[k];

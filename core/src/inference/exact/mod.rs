@@ -1,0 +1,18 @@
+//! The exact search: the best of all assignments, every relation in, with a proof or with the gap that is left
+//! (docs/maths.md, "Exact inference").
+
+mod ascent;
+mod checks;
+mod factors;
+mod incumbents;
+mod problem;
+mod search;
+mod settings;
+mod shortlist;
+mod solve;
+mod symmetry;
+mod tighten;
+
+pub use problem::Rules;
+pub use settings::ExactSettings;
+pub use solve::{solve, Solution};

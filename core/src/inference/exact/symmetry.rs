@@ -1,0 +1,49 @@
+//! One assignment of each class that the template's symmetries make.
+
+/// The template's symmetries as the search asks for them.
+#[derive(Debug, Clone)]
+pub struct Symmetries {
+    /// `sources[k][p]`: the part whose segment part `p` takes under symmetry `k`; the identity left out.
+    sources: Vec<Vec<usize>>,
+}
+
+/// Stands for the state of a part that the search has not come to.
+pub const UNDECIDED: usize = usize::MAX;
+
+impl Symmetries {
+    /// `maps[k][p]` is the part that takes the segment of part `p`.
+    pub fn new(maps: &[Vec<usize>]) -> Self {
+        let source = |map: &Vec<usize>| {
+            let mut from = vec![0; map.len()];
+            map.iter().enumerate().for_each(|(p, &to)| from[to] = p);
+            from
+        };
+        let is_identity = |map: &&Vec<usize>| map.iter().enumerate().any(|(p, &to)| p != to);
+        Self { sources: maps.iter().filter(is_identity).map(source).collect() }
+    }
+
+    /// False: whatever the undecided parts take, a symmetric copy comes later in the order of states. The search keeps
+    /// the last of each class.
+    pub fn may_lead(&self, states: &[usize]) -> bool {
+        self.sources.iter().all(|from| {
+            let pairs = states.iter().zip(from).enumerate().filter(|(p, (_, &from))| *p != from);
+            let mut pairs = pairs.map(|(_, (&state, &from))| (state, states[from]));
+            match pairs.find(|(state, turned)| *state == UNDECIDED || *turned == UNDECIDED || state != turned) {
+                Some((UNDECIDED, _) | (_, UNDECIDED)) | None => true,
+                Some((state, turned)) => state > turned,
+            }
+        })
+    }
+
+    /// The last of the assignment's copies in the order of states.
+    pub fn leader(&self, states: &[usize]) -> Vec<usize> {
+        let mut best = states.to_vec();
+        for from in &self.sources {
+            let turned = from.iter().map(|&p| states[p]);
+            if turned.clone().gt(best.iter().copied()) {
+                best = turned.collect();
+            }
+        }
+        best
+    }
+}
