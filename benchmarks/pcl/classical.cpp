@@ -13,7 +13,7 @@
 #include <pcl/surface/convex_hull.h>
 
 Parameters parameters_of(const std::string &method) {
-  // Of those tried on 12 frames of seed 7 the ones with the best recall of panels.
+  // Chosen for recall of panels, on 12 frames of seed 7 (on voxels and organized).
   const Parameters chain = {{"leaf_m", 0.0}, {"plane_m", 0.004},  {"room_m", 0.01},   {"room_share", 0.12},
                             {"gap_m", 0.01}, {"iterations", 500}, {"min_points", 500}};
   if (method == "classical")

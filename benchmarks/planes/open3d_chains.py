@@ -1,4 +1,4 @@
-"""What a user of Open3D would write; parameters chosen for recall on frames of seed 7."""
+"""What a user of Open3D would write; the chains with the parameters of benchmarks/pcl."""
 
 from __future__ import annotations
 
