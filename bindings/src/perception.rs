@@ -1,9 +1,9 @@
 use boxwright_core::cloud::CloudView;
 use boxwright_core::geometry::Vec3;
-use boxwright_core::perception::{perceive as perceive_cloud, PerceptionSettings, Scene};
+use boxwright_core::perception::{perceive as perceive_cloud, EdgeKind, PerceptionSettings, PlaneFinder, Scene};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::convert::{named, rows_of_three, to_python};
 
@@ -51,6 +51,11 @@ impl Perception {
             PyArray1::from_iter(py, hull.iter().flat_map(|c| [c.x, c.y, c.z])).reshape([hull.len(), 3])
         };
         self.scene.segments.hulls.iter().map(array).collect()
+    }
+
+    #[getter]
+    fn edges(&self) -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
+        self.scene.segments.edges.iter().map(|kinds| kinds.map(EdgeKind::name).into()).collect()
     }
 
     #[getter]
@@ -113,6 +118,7 @@ fn perceive(
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("PLANES", PyTuple::new(m.py(), PlaneFinder::ALL.map(PlaneFinder::name))?)?;
     m.add_class::<Perception>()?;
     m.add_function(wrap_pyfunction!(perceive, m)?)
 }

@@ -11,6 +11,7 @@ y down, z forward). Names are loaded when they are first used.
 - `Cloud`: points (N, 3) float32, metres; pixel (u, v) of an organized one is point v * width + u.
 - `read_cloud(path, ...) -> Cloud`: PCD, PLY, NPY, or a depth PNG with its intrinsics.
 - `infer(cloud, ...) -> Inferred`: the model, and the object and part of each point, (N,) int16, -1 for none.
+- `segment(cloud, ...) -> Segmented`: the cloud's planar segments without meaning, as a record and as perceived.
 - `Model`: panels (4 corners, metres), hinges (origin, axis, position in radians: 0 closed, growing as a flap opens).
 - `load_model(path) -> Model`: a model.json.
 - `save_urdf(object, path, ...)`: one object of a model as URDF.
@@ -28,11 +29,12 @@ if TYPE_CHECKING:
     from boxwright.kinematics import save_urdf
     from boxwright.pipeline import infer
     from boxwright.scoring import evaluate
+    from boxwright.segmentation import segment
     from boxwright.types import Cloud, Model
 
 __version__ = "0.1.0"
 
-__all__ = ["Cloud", "Model", "__version__", "evaluate", "infer", "load_model", "read_cloud", "save_urdf"]
+__all__ = ["Cloud", "Model", "__version__", "evaluate", "infer", "load_model", "read_cloud", "save_urdf", "segment"]
 
 _HOMES = {
     "Cloud": "boxwright.types",
@@ -42,6 +44,7 @@ _HOMES = {
     "load_model": "boxwright.io.models",
     "read_cloud": "boxwright.io.clouds",
     "save_urdf": "boxwright.kinematics",
+    "segment": "boxwright.segmentation",
 }
 
 

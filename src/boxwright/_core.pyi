@@ -39,6 +39,11 @@ def read_depth_png(
 
 # --- perception ---
 
+PLANES: tuple[str, ...]
+"""The front ends that find planes, as the setting `planes` names them; the default is the core's."""
+
+_EdgeKind = Literal["edge", "crease", "occluded", "border"]
+
 class Perception:
     """Planar segments of a cloud and the support they stand on, as `boxwright.perception.perceive` returns them.
 
@@ -68,6 +73,14 @@ class Perception:
     @property
     def hulls(self) -> list[NDArray[np.float64]]:
         """S arrays (H, 3), metres: corners, going round, of each segment's convex hull in its plane."""
+
+    @property
+    def edges(self) -> list[tuple[_EdgeKind, _EdgeKind, _EdgeKind, _EdgeKind]]:
+        """S times what ends the segment at each side of its rectangle; side k runs from corner k to the next.
+
+        "edge": its own end; "crease": another segment goes on; "occluded": something nearer hides what follows;
+        "border": the frame ends (eq. 39, 40).
+        """
 
     @property
     def rms(self) -> NDArray[np.float64]:
@@ -210,7 +223,7 @@ def infer(
     models: list[ObjectModel],
     viewpoint: tuple[float, float, float] | None = None,
     up: tuple[float, float, float] | None = None,
-    perception: dict[str, float] | None = None,
+    perception: dict[str, float | str] | None = None,
     search: dict[str, float] | None = None,
 ) -> tuple[Perception, Answer]:
     """From a cloud to its objects in one call. Raises ValueError where the cloud cannot be used, with the mend."""

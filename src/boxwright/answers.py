@@ -1,4 +1,4 @@
-"""An answer as files: model.json, labels.npz and a URDF for each object with a pose (docs/formats.md)."""
+"""Answers as files (docs/formats.md): a model's with labels and a URDF for each object with a pose, segments'."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ from pathlib import Path
 
 from boxwright.io.labels import PointLabels, write_labels
 from boxwright.io.models import save_model
+from boxwright.io.segments import save_segments, write_segment_labels
 from boxwright.kinematics import save_urdf
 from boxwright.pipeline import Inferred
+from boxwright.segmentation import Segmented
 
 
 def save_answer(inferred: Inferred, folder: Path, name: str) -> tuple[Path, ...]:
@@ -29,6 +31,18 @@ def save_answer(inferred: Inferred, folder: Path, name: str) -> tuple[Path, ...]
             urdfs.append(folder / f"{name}_{k}.urdf")
             save_urdf(found, urdfs[-1])
     return (model, labels, *urdfs)
+
+
+def save_segmentation(segmented: Segmented, folder: Path) -> tuple[Path, ...]:
+    """Writes segments.json and labels.npz to a folder, which is made where it is missing; the files written.
+
+    Raises OSError when something cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    segments, labels = folder / "segments.json", folder / "labels.npz"
+    save_segments(segmented.segmentation, segments)
+    write_segment_labels(segmented.perception.labels, labels)
+    return segments, labels
 
 
 def _remove_urdfs(folder: Path, name: str) -> None:

@@ -12,16 +12,15 @@ from numpy.typing import NDArray
 
 from boxwright import _core
 from boxwright.models import TEMPLATE_NAMES, load_object_model
+from boxwright.perception import chosen
+from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
 from boxwright.types import Cloud
-from boxwright.types.model import Model, Object, Seconds, Source, SupportPlane
+from boxwright.types.model import Model, Object, Seconds
 
 METHODS = ("paper",)
 """The ways through that are built."""
 
 DEFAULT_METHOD = "paper"
-
-Bounds = tuple[float, float, float, float, float, float]
-"""x low, x high, y low, y high, z low, z high in metres, the cloud's own frame."""
 
 
 @dataclass(frozen=True)
@@ -42,13 +41,15 @@ def infer(
     weights: str | Path | None = None,
     up: tuple[float, float, float] | None = None,
     roi: Bounds | None = None,
+    planes: str | None = None,
     read_seconds: float = 0.0,
 ) -> Inferred:
     """Infers the articulated objects of a cloud.
 
     `templates` compete for the segments: shipped names or paths of `.toml` files; `weights` names one file for a single
     template (shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
-    known. `roi` leaves out all points beyond the bounds. All coordinates are in the cloud's frame, metres.
+    known. `roi` leaves out all points beyond the bounds. `planes` names the front end that finds the planes, one of
+    `_core.PLANES`. All coordinates are in the cloud's frame, metres.
 
     Raises ValueError where a value does not fit or the cloud cannot be used as it is (units, frame, up), with the mend.
     """
@@ -60,7 +61,15 @@ def infer(
 
     start = time.perf_counter()
     points = cloud.points if roi is None else within(cloud.points, roi)
-    perception, answer = _core.infer(points, cloud.width, cloud.height, models, viewpoint=cloud.viewpoint, up=up)
+    perception, answer = _core.infer(
+        points,
+        cloud.width,
+        cloud.height,
+        models,
+        viewpoint=cloud.viewpoint,
+        up=up,
+        perception=chosen(planes),
+    )
     objects = tuple(msgspec.json.decode(text, type=Object) for text in answer.objects_json())
     total = time.perf_counter() - start
 
@@ -68,36 +77,12 @@ def infer(
         format="boxwright.model",
         version=1,
         method=method,
-        source=Source(file=Path(cloud.path).name if cloud.path else "", points=len(points), organized=cloud.organized),
+        source=source_of(cloud),
         warnings=tuple(perception.warnings + answer.warnings),
         seconds=Seconds(read=read_seconds, stages=perception.stage_seconds | answer.stage_seconds, total=total),
-        up=_vector(perception.up),
-        support_plane=_support_plane(perception),
+        up=vector(perception.up),
+        support_plane=support_plane_of(perception),
         free_space="no viewpoint" if cloud.viewpoint is None else "not used",
         objects=objects,
     )
     return Inferred(model, answer.object_labels, answer.part_labels, perception)
-
-
-def within(points: NDArray[np.float32], roi: Bounds) -> NDArray[np.float32]:
-    """A copy of the points (N, 3) in which those beyond the bounds are no readings (NaN).
-
-    Raises ValueError where a low bound is not below its high one.
-    """
-    low, high = np.array(roi[0::2]), np.array(roi[1::2])
-    if not np.all(low < high):
-        raise ValueError(
-            f"roi {','.join(map(str, roi))}: each low bound comes before its high one: xlo,xhi,ylo,yhi,zlo,zhi"
-        )
-    inside = np.all((points >= low) & (points <= high), axis=1)
-    return np.where(inside[:, None], points, np.float32(np.nan))
-
-
-def _vector(values: NDArray[np.float64]) -> tuple[float, float, float]:
-    x, y, z = (float(v) for v in values)
-    return x, y, z
-
-
-def _support_plane(perception: _core.Perception) -> SupportPlane | None:
-    plane = perception.support_plane
-    return None if plane is None else SupportPlane(normal=_vector(plane[0]), distance=float(plane[1]))

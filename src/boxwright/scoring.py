@@ -46,17 +46,22 @@ def evaluate(
     method: str = DEFAULT_METHOD,
     templates: tuple[str | Path, ...] = TEMPLATE_NAMES,
     weights: str | Path | None = None,
+    planes: str | None = None,
     jobs: int | None = None,
 ) -> Summary:
     """The figures of merit of a method on a scene set, by category, `all` last: per cent, degrees, millimetres.
 
-    `folder` holds NAME.pcd, NAME.truth.json, NAME.labels.npz for each frame (docs/formats.md); `method`, `templates`
-    and `weights` are those of `boxwright.infer`; `jobs` threads, by default one for each processor, change no bit.
+    `folder` holds NAME.pcd, NAME.truth.json, NAME.labels.npz for each frame (docs/formats.md); `method`, `templates`,
+    `weights` and `planes` are those of `boxwright.infer`; `jobs` threads, by default one for each processor, change
+    no bit.
 
     Raises ValueError with one line where a frame cannot be used, OSError where a file cannot be read.
     """
     scores = []
-    for outcome in score_entries(list_set(folder), method=method, templates=templates, weights=weights, jobs=jobs):
+    outcomes = score_entries(
+        list_set(folder), method=method, templates=templates, weights=weights, planes=planes, jobs=jobs
+    )
+    for outcome in outcomes:
         if outcome.refusal is not None:
             raise outcome.refusal
         if outcome.score is not None:
@@ -70,6 +75,7 @@ def score_entries(
     method: str,
     templates: tuple[str | Path, ...],
     weights: str | Path | None,
+    planes: str | None,
     jobs: int | None,
 ) -> Iterator[FrameOutcome]:
     """The outcome of each frame of a set, in order, whatever the number of threads. Arguments are `evaluate`'s."""
@@ -80,7 +86,8 @@ def score_entries(
         except (ValueError, OSError) as error:
             return FrameOutcome(entry.name, None, error)
         try:
-            inferred = infer(read_cloud(entry.cloud_path), method=method, templates=templates, weights=weights)
+            cloud = read_cloud(entry.cloud_path)
+            inferred = infer(cloud, method=method, templates=templates, weights=weights, planes=planes)
             labels = PointLabels(object=inferred.object_labels, part=inferred.part_labels)
             score = score_answer(frame, Answer(objects=inferred.model.objects, labels=labels))
         except (ValueError, OSError) as error:

@@ -16,6 +16,7 @@ LAYERS = (
     ("perception", "models", "kinematics"),
     ("evaluation",),
     ("learning",),
+    ("segmentation",),
     ("pipeline",),
     ("answers", "scoring"),
     ("figures",),

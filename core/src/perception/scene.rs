@@ -13,6 +13,18 @@ pub enum EdgeKind {
     Border,
 }
 
+impl EdgeKind {
+    /// What files call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Edge => "edge",
+            Self::Crease => "crease",
+            Self::Occluded => "occluded",
+            Self::Border => "border",
+        }
+    }
+}
+
 /// Group of the support plane and of walls and floors, which belong to no thing.
 pub const BACKGROUND: i32 = -1;
 

@@ -13,6 +13,18 @@ pub enum PlaneFinder {
     Grid,
 }
 
+impl PlaneFinder {
+    pub const ALL: [Self; 2] = [Self::Ransac, Self::Grid];
+
+    /// What settings call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ransac => "ransac",
+            Self::Grid => "grid",
+        }
+    }
+}
+
 /// What perception can be told; every default of the algorithm is here and nowhere else.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -118,5 +130,18 @@ impl PerceptionSettings {
     /// Largest distance from a plane of a reading that belongs to it (eq. 27), metres, given its standard deviation.
     pub fn tolerance_m(&self, sigma_m: f64) -> f64 {
         self.tolerance_floor_m + self.tolerance_sigmas * sigma_m
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_know_each_plane_finder_by_its_name() {
+        for finder in PlaneFinder::ALL {
+            let overrides = Map::from_iter([("planes".to_owned(), Value::from(finder.name()))]);
+            assert_eq!(PerceptionSettings::with_overrides(overrides).unwrap().planes, finder);
+        }
     }
 }

@@ -7,16 +7,17 @@ from typing import Annotated
 
 import typer
 
-from boxwright.cli.options import JobsOption, JsonOption, MethodOption, ModelOptions, TemplateOption, WeightsOption
+from boxwright.cli.groups import grouped
+from boxwright.cli.options import JobsOption, JsonOption, ModelOptions, PlanesOption
 
 
+@grouped
 def evaluate(
     folder: Annotated[
         Path, typer.Argument(metavar="SET", help="Folder of NAME.pcd, NAME.truth.json, NAME.labels.npz.")
     ],
-    method: MethodOption = None,
-    template: TemplateOption = None,
-    weights: WeightsOption = None,
+    model: ModelOptions,
+    planes: PlanesOption = None,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write all scores as JSON, to compare later.")
     ] = None,
@@ -41,10 +42,14 @@ def evaluate(
     from boxwright.evaluation import list_set, make_evaluation, save_evaluation
     from boxwright.scoring import score_entries
 
-    wanted = ModelOptions(method, template, weights)
     entries = list_set(folder)
     outcomes = score_entries(
-        entries, method=wanted.method_name, templates=wanted.template_names, weights=weights, jobs=jobs
+        entries,
+        method=model.method_name,
+        templates=model.template_names,
+        weights=model.weights,
+        planes=planes,
+        jobs=jobs,
     )
     scores, refused = [], 0
     for outcome in progress(outcomes, len(entries), "evaluate"):
@@ -53,7 +58,7 @@ def evaluate(
             tell(outcome.refusal, folder / outcome.name)
         if outcome.score is not None:
             scores.append(outcome.score)
-    evaluation = make_evaluation(wanted.method_name, folder.resolve().name, scores)
+    evaluation = make_evaluation(model.method_name, folder.resolve().name, scores)
     if output is not None:
         save_evaluation(evaluation, output)
     if as_json:

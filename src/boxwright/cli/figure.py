@@ -7,37 +7,17 @@ from typing import Annotated
 
 import typer
 
-from boxwright.cli.options import (
-    DepthDecodeOption,
-    DepthUnitOption,
-    FrameOption,
-    IntrinsicsOption,
-    MethodOption,
-    ModelOptions,
-    ReadOptions,
-    RoiOption,
-    TemplateOption,
-    UnitOption,
-    UpOption,
-    ViewpointOption,
-    WeightsOption,
-)
+from boxwright.cli.groups import grouped
+from boxwright.cli.options import ModelOptions, ReadOptions, SceneOptions
 
 
+@grouped
 def figure(
     cloud: Annotated[Path, typer.Argument(metavar="CLOUD", help="A cloud: .pcd, .ply, .npy, or a depth image .png.")],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE.png", help="Picture to write.")],
-    method: MethodOption = None,
-    template: TemplateOption = None,
-    weights: WeightsOption = None,
-    unit: UnitOption = "m",
-    frame: FrameOption = "optical",
-    viewpoint: ViewpointOption = None,
-    up: UpOption = None,
-    roi: RoiOption = None,
-    intrinsics: IntrinsicsOption = None,
-    depth_unit_m: DepthUnitOption = None,
-    depth_decode: DepthDecodeOption = "none",
+    model: ModelOptions,
+    reading: ReadOptions,
+    scene: SceneOptions,
 ) -> None:
     """Draw a frame in the paper's five columns: colour or depth, segments, rectangles, matched model, graph.
 
@@ -52,7 +32,6 @@ def figure(
     draw = frame_figure_drawer()
     if output.suffix.lower() != ".png":
         raise typer.BadParameter(f"{str(output)!r} must end in .png", param_hint="--output")
-    wanted = ModelOptions(method, template, weights, up, roi)
-    read = ReadOptions(unit, frame, viewpoint, intrinsics, depth_unit_m, depth_decode).read(cloud)
-    draw(read, wanted.infer(read), output, wanted.template_names)
+    read = reading.read(cloud)
+    draw(read, model.infer(read, scene), output, model.template_names)
     print(output)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 from typing import TYPE_CHECKING, Any
 
-from boxwright.cli.failures import one_line, tell, warn
+from boxwright.cli.outcome_report import head_of, print_files, print_problems, print_stages, print_summaries
 from boxwright.cli.screen import console, number, table
 
 if TYPE_CHECKING:
@@ -16,49 +15,31 @@ if TYPE_CHECKING:
     from boxwright.types import Model, Object
 
 
-def print_outcome(outcome: Outcome, verbose: bool, as_json: bool) -> None:
+def print_outcome(outcome: Outcome[Model], verbose: bool, as_json: bool) -> None:
     """One input: its error and warnings on standard error, its objects on standard output unless JSON is wanted."""
-    if outcome.refusal is not None:
-        tell(outcome.refusal, outcome.cloud)
-    if outcome.model is None:
+    model = outcome.answer
+    print_problems(outcome, () if model is None else model.warnings)
+    if model is None or as_json:
         return
-    for warning in outcome.model.warnings:
-        warn(f"{outcome.cloud}: warning: {warning}")
-    if not as_json:
-        _print_model(outcome.cloud.stem, outcome.model, verbose)
-        console().print(
-            f"in {outcome.files[0].parent}: {', '.join(path.name for path in outcome.files)}\n", soft_wrap=True
-        )
-
-
-def print_json(outcomes: list[Outcome]) -> None:
-    """All inputs as one JSON list: what was found in which files, or the error."""
-    print(json.dumps([_as_json(outcome) for outcome in outcomes], indent=1))
-
-
-def _as_json(outcome: Outcome) -> dict[str, Any]:
-    if outcome.model is None:
-        return {"input": str(outcome.cloud), "error": one_line(outcome.refusal) if outcome.refusal else None}
-    return {
-        "input": str(outcome.cloud),
-        "files": [str(path) for path in outcome.files],
-        "warnings": list(outcome.model.warnings),
-        "seconds": outcome.model.seconds.total,
-        "objects": [{"template": found.template, "score": found.score} for found in outcome.model.objects],
-    }
-
-
-def _print_model(name: str, model: Model, verbose: bool) -> None:
     out = console()
-    count = len(model.objects)
-    title = f"{name}: {count or 'no'} object{'' if count == 1 else 's'} ({model.seconds.total:.2f} s)"
-    if count:
-        out.print(object_table(title, model.objects))
-    else:
-        out.print(f"[bold]{title}[/]\n")
+    head = head_of(outcome.cloud, len(model.objects), "object", model.seconds)
+    out.print(object_table(head, model.objects) if model.objects else f"[bold]{head}[/]\n")
     if verbose:
-        stages = ", ".join(f"{stage} {1000 * seconds:.0f}" for stage, seconds in model.seconds.stages.items())
-        out.print(f"ms: read {1000 * model.seconds.read:.0f}, {stages}")
+        print_stages(model.seconds)
+    print_files(outcome.files)
+
+
+def print_json(outcomes: list[Outcome[Model]]) -> None:
+    """All inputs as one JSON list: what was found in which files, or the error."""
+    print_summaries(outcomes, _as_json)
+
+
+def _as_json(model: Model) -> dict[str, Any]:
+    return {
+        "warnings": list(model.warnings),
+        "seconds": model.seconds.total,
+        "objects": [{"template": found.template, "score": found.score} for found in model.objects],
+    }
 
 
 def object_table(title: str, objects: tuple[Object, ...]) -> Table:

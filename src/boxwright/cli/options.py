@@ -2,63 +2,35 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from boxwright.cli.values import Bounds, Triple
+
 if TYPE_CHECKING:
     from boxwright.pipeline import Inferred
+    from boxwright.segmentation import Segmented
     from boxwright.types import Cloud
 
 
-class Triple(NamedTuple):
-    """A point or a direction, input's frame."""
-
-    x: float
-    y: float
-    z: float
-
-    @staticmethod
-    def parse(text: str) -> Triple:
-        """From "X,Y,Z"."""
-        x, y, z = _numbers(text, 3)
-        return Triple(x, y, z)
-
-
-class Bounds(NamedTuple):
-    """A region of interest, metres, input's frame."""
-
-    x_low: float
-    x_high: float
-    y_low: float
-    y_high: float
-    z_low: float
-    z_high: float
-
-    @staticmethod
-    def parse(text: str) -> Bounds:
-        """From "XLO,XHI,YLO,YHI,ZLO,ZHI"."""
-        return Bounds(*_numbers(text, 6))
-
-
-def _numbers(text: str, count: int) -> list[float]:
-    try:
-        values = [float(word) for word in text.split(",")]
-    except ValueError:
-        raise typer.BadParameter(f"{text!r} holds something that is no number; must be {count} numbers") from None
-    if len(values) != count:
-        raise typer.BadParameter(f"{text!r} has {len(values)} numbers; must be {count} with commas between them")
-    return values
-
-
-def known_method(value: str | None) -> str | None:
+def _known_method(value: str | None) -> str | None:
     """A method that is built; a wrong command line otherwise."""
     from boxwright.pipeline import METHODS
 
     if value is not None and value not in METHODS:
         raise typer.BadParameter(f"{value!r} is not known; known are {', '.join(METHODS)}")
+    return value
+
+
+def _known_planes(value: str | None) -> str | None:
+    """A front end that the core has; a wrong command line otherwise."""
+    from boxwright._core import PLANES
+
+    if value is not None and value not in PLANES:
+        raise typer.BadParameter(f"{value!r} is not known; known are {', '.join(PLANES)}")
     return value
 
 
@@ -113,7 +85,7 @@ DepthDecodeOption = Annotated[
 MethodOption = Annotated[
     str | None,
     typer.Option(
-        "--method", callback=known_method, metavar="NAME", help="paper: as of 2011 (default).", rich_help_panel=MODEL
+        "--method", callback=_known_method, metavar="NAME", help="paper: as of 2011 (default).", rich_help_panel=MODEL
     ),
 ]
 TemplateOption = Annotated[
@@ -149,45 +121,66 @@ RoiOption = Annotated[
         rich_help_panel=MODEL,
     ),
 ]
+PlanesOption = Annotated[
+    str | None,
+    typer.Option(
+        "--planes",
+        callback=_known_planes,
+        metavar="NAME",
+        help="How planes are found. ransac: as of 2011 (default); grid: on the image grid, in milliseconds.",
+        rich_help_panel=MODEL,
+    ),
+]
 JobsOption = Annotated[int | None, typer.Option("--jobs", min=1, help="Threads; default: one for each processor.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for programs instead of tables.")]
+CloudsArgument = Annotated[
+    list[Path], typer.Argument(metavar="CLOUD...", help="Clouds: .pcd, .ply, .npy, or depth images .png.")
+]
+OutOption = Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the folders of answers.")]
+InputsOption = Annotated[int, typer.Option("--jobs", min=1, help="Inputs worked on at once.")]
+VerboseOption = Annotated[bool, typer.Option("--verbose", help="Print the time of each stage too.")]
 
 
 @dataclass(frozen=True)
 class ReadOptions:
     """How a cloud's file is to be read."""
 
-    unit: Literal["m", "mm"]
-    frame: Literal["optical", "opengl"]
-    viewpoint: Triple | None
-    intrinsics: Path | None
-    depth_unit_m: float | None
-    depth_decode: Literal["none", "rotate3"]
+    unit: UnitOption = "m"
+    frame: FrameOption = "optical"
+    viewpoint: ViewpointOption = None
+    intrinsics: IntrinsicsOption = None
+    depth_unit_m: DepthUnitOption = None
+    depth_decode: DepthDecodeOption = "none"
 
     def read(self, path: Path) -> Cloud:
         """The cloud in that file; raises as `read_cloud` does."""
         from boxwright.io.clouds import read_cloud
 
-        return read_cloud(
-            path,
-            unit=self.unit,
-            frame=self.frame,
-            viewpoint=self.viewpoint,
-            intrinsics=self.intrinsics,
-            depth_unit_m=self.depth_unit_m,
-            depth_decode=self.depth_decode,
-        )
+        return read_cloud(path, **asdict(self))
+
+
+@dataclass(frozen=True)
+class SceneOptions:
+    """What is known of the scene, and how its planes are found."""
+
+    up: UpOption = None
+    roi: RoiOption = None
+    planes: PlanesOption = None
+
+    def segment(self, cloud: Cloud, read_seconds: float = 0.0) -> Segmented:
+        """The segments of a cloud; raises as `segment` does."""
+        from boxwright.segmentation import segment
+
+        return segment(cloud, up=self.up, roi=self.roi, planes=self.planes, read_seconds=read_seconds)
 
 
 @dataclass(frozen=True)
 class ModelOptions:
     """What is looked for in a cloud."""
 
-    method: str | None
-    templates: list[str] | None
-    weights: Path | None
-    up: Triple | None = None
-    roi: Bounds | None = None
+    method: MethodOption = None
+    template: TemplateOption = None
+    weights: WeightsOption = None
 
     @property
     def method_name(self) -> str:
@@ -201,9 +194,9 @@ class ModelOptions:
         """The templates that compete."""
         from boxwright.models import TEMPLATE_NAMES
 
-        return tuple(self.templates) if self.templates else TEMPLATE_NAMES
+        return tuple(self.template) if self.template else TEMPLATE_NAMES
 
-    def infer(self, cloud: Cloud, read_seconds: float = 0.0) -> Inferred:
+    def infer(self, cloud: Cloud, scene: SceneOptions, read_seconds: float = 0.0) -> Inferred:
         """The objects of a cloud; raises as `boxwright.infer` does."""
         from boxwright.pipeline import infer
 
@@ -212,7 +205,8 @@ class ModelOptions:
             method=self.method_name,
             templates=self.template_names,
             weights=self.weights,
-            up=self.up,
-            roi=self.roi,
+            up=scene.up,
+            roi=scene.roi,
+            planes=scene.planes,
             read_seconds=read_seconds,
         )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from boxwright.cli.options import JobsOption, JsonOption
+from boxwright.cli.options import JobsOption, JsonOption, PlanesOption
 
 if TYPE_CHECKING:
     from boxwright.evaluation import SetEntry
@@ -24,6 +24,7 @@ def train(
         list[str] | None,
         typer.Option("--category", help="Learn from frames of this category alone; repeatable. Default: all."),
     ] = None,
+    planes: PlanesOption = None,
     jobs: JobsOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -48,7 +49,7 @@ def train(
     from boxwright.parallel import processors
 
     loaded = load_template(template)
-    frames, refused = _see(folders, category, jobs)
+    frames, refused = _see(folders, category, planes, jobs)
     command = shlex.join(["boxwright", *sys.argv[1:]])
     learned = learn(
         loaded,
@@ -66,7 +67,9 @@ def train(
         raise typer.Exit(1)
 
 
-def _see(folders: list[Path], categories: list[str] | None, jobs: int | None) -> tuple[list[SeenFrame], int]:
+def _see(
+    folders: list[Path], categories: list[str] | None, planes: str | None, jobs: int | None
+) -> tuple[list[SeenFrame], int]:
     """The frames of all sets after perception, and how many could not be used."""
     from boxwright.cli.failures import tell
     from boxwright.cli.screen import progress
@@ -74,7 +77,7 @@ def _see(folders: list[Path], categories: list[str] | None, jobs: int | None) ->
     from boxwright.parallel import ordered_map, processors
 
     entries = [entry for folder in folders for entry in list_set(folder)]
-    seen = ordered_map(lambda entry: _look(entry, categories), entries, jobs or processors())
+    seen = ordered_map(lambda entry: _look(entry, categories, planes), entries, jobs or processors())
     frames, refused = [], 0
     for entry, frame in zip(entries, progress(seen, len(entries), "perception"), strict=True):
         if isinstance(frame, (ValueError, OSError)):
@@ -85,7 +88,7 @@ def _see(folders: list[Path], categories: list[str] | None, jobs: int | None) ->
     return frames, refused
 
 
-def _look(entry: SetEntry, categories: list[str] | None) -> SeenFrame | ValueError | OSError | None:
+def _look(entry: SetEntry, categories: list[str] | None, planes: str | None) -> SeenFrame | ValueError | OSError | None:
     """One frame after perception; None where its category is not asked for, the error where it cannot be used."""
     from boxwright.evaluation import read_entry
     from boxwright.io.clouds import read_cloud
@@ -96,7 +99,7 @@ def _look(entry: SetEntry, categories: list[str] | None) -> SeenFrame | ValueErr
         labelled = read_entry(entry)
         if categories and labelled.truth.category not in categories:
             return None
-        perception = perceive(read_cloud(entry.cloud_path))
+        perception = perceive(read_cloud(entry.cloud_path), planes=planes)
         if len(perception.labels) != len(labelled.labels):
             count, points = len(labelled.labels), len(perception.labels)
             raise ValueError(

@@ -6,14 +6,14 @@ from os import PathLike
 from pathlib import Path
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from boxwright.figures.canvas import save_png, show
 from boxwright.figures.graph import draw_graph
-from boxwright.figures.images import Image, faint, seen_image, segment_image
+from boxwright.figures.images import faint, seen_image, segment_image
 from boxwright.figures.overlays import draw_objects, draw_rectangles
-from boxwright.figures.palette import FAINT, INK
+from boxwright.figures.palette import INK
 from boxwright.figures.view import view_of
 from boxwright.figures.window import Window, window_of
 from boxwright.models import TEMPLATE_NAMES, load_template
@@ -21,8 +21,6 @@ from boxwright.pipeline import Inferred
 from boxwright.types import Cloud
 
 INCHES = (19.0, 3.35)
-DOTS_PER_INCH = 110
-
 GRAPH_PLACES = {1: ((0.0, 0.0),), 2: ((-1.25, 0.0), (1.25, 0.0)), 3: ((-1.25, 1.2), (1.25, 1.2), (0.0, -1.2))}
 """Centres of so many graphs, each of radius 1."""
 
@@ -44,9 +42,7 @@ def save_frame_figure(
     where the picture cannot be written.
     """
     figure = frame_figure(cloud, inferred, templates)
-    FigureCanvasAgg(figure)
-    with Path(path).open("wb") as stream:
-        figure.savefig(stream, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
+    save_png(figure, path)
 
 
 def frame_figure(cloud: Cloud, inferred: Inferred, templates: tuple[str | Path, ...] = TEMPLATE_NAMES) -> Figure:
@@ -59,28 +55,16 @@ def frame_figure(cloud: Cloud, inferred: Inferred, templates: tuple[str | Path, 
     kind, seen = seen_image(cloud, view)
     background = faint(seen, cloud, view)
 
-    _show(columns[0], seen, f"{inferred.model.source.file}: {kind}")
+    show(columns[0], seen, f"{inferred.model.source.file}: {kind}")
     _frame(columns[0], window)
     segments = segment_image(view, inferred.perception, background)
-    _show(columns[1], segments, f"{len(inferred.perception)} plane segments", window)
-    _show(columns[2], background, "bounding rectangles", window)
+    show(columns[1], segments, f"{len(inferred.perception)} plane segments", window)
+    show(columns[2], background, "bounding rectangles", window)
     draw_rectangles(columns[2], view, inferred.perception)
-    _show(columns[3], background, _names(inferred), window)
+    show(columns[3], background, _names(inferred), window)
     draw_objects(columns[3], view, inferred.model.objects)
     _draw_graphs(columns[4], inferred, templates)
     return figure
-
-
-def _show(axes: Axes, image: Image, title: str, window: Window | None = None) -> None:
-    axes.imshow(image, interpolation="nearest" if window is None else "antialiased")
-    axes.set_title(title, fontsize=10, color=INK, loc="left", pad=5)
-    axes.set_xticks([])
-    axes.set_yticks([])
-    for spine in axes.spines.values():
-        spine.set_color(FAINT)
-    if window is not None:
-        axes.set_xlim(window.left, window.right)
-        axes.set_ylim(window.bottom, window.top)
 
 
 def _frame(axes: Axes, window: Window) -> None:

@@ -53,10 +53,11 @@ def faint(image: Image, cloud: Cloud, view: View) -> Image:
     return np.repeat(faded[:, :, None], 3, axis=2)
 
 
-def segment_image(view: View, perception: Perception, background: Image) -> Image:
-    """Each segment's readings in its own colour on the background."""
+def segment_image(view: View, perception: Perception, background: Image, tint: float = 1.0) -> Image:
+    """Each segment's readings in its own colour on the background, which shines through where `tint` is below 1."""
     colours = np.array([to_rgb(of_segment(s)) for s in range(len(perception))]).reshape(-1, 3)
     labels = np.where(view.index >= 0, perception.labels[view.index], -1)
     image = background.copy()
-    image[labels >= 0] = colours[labels[labels >= 0]]
+    mine = labels >= 0
+    image[mine] = (1.0 - tint) * image[mine] + tint * colours[labels[mine]]
     return image

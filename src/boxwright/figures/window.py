@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,8 +30,16 @@ class Window:
 
 def window_of(view: View, inferred: Inferred) -> Window:
     """Around the objects; where there is none around the segments; where there is none, all. In the image's shape."""
+    objects = inferred.model.objects
+    labels = inferred.object_labels if objects else inferred.perception.labels
+    panels = [np.array(part.corners) for found in objects for part in found.parts if part.corners is not None]
+    return window_around(view, labels >= 0, panels)
+
+
+def window_around(view: View, subject: NDArray[np.bool_], outlines: Sequence[NDArray[np.float64]]) -> Window:
+    """Around the points (N,) that are the subject and outlines (K, 3) metres; all where there are none."""
     rows, columns = view.index.shape
-    pixels = _subject(view, inferred)
+    pixels = _subject(view, subject, outlines)
     if len(pixels) == 0:
         return Window(-0.5, columns - 0.5, -0.5, rows - 0.5)
     low, high = pixels.min(axis=0), pixels.max(axis=0)
@@ -42,13 +51,9 @@ def window_of(view: View, inferred: Inferred) -> Window:
     return Window(centre[0] - half[0], centre[0] + half[0], centre[1] - half[1], centre[1] + half[1])
 
 
-def _subject(view: View, inferred: Inferred) -> NDArray[np.float64]:
+def _subject(view: View, subject: NDArray[np.bool_], outlines: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """Pixels (N, 2) of what the picture is about."""
-    labels = inferred.object_labels if inferred.model.objects else inferred.perception.labels
-    shown = np.where(view.index >= 0, labels[view.index], -1) >= 0
-    rows, columns = np.nonzero(shown)
+    rows, columns = np.nonzero((view.index >= 0) & subject[view.index])
     pixels = [np.column_stack([columns, rows]).astype(np.float64)]
-    for found in inferred.model.objects:
-        panels = [np.array(part.corners) for part in found.parts if part.corners is not None]
-        pixels += [view.project(corners) for corners in panels if view.has_before_it(corners)]
+    pixels += [view.project(corners) for corners in outlines if view.has_before_it(corners)]
     return np.concatenate(pixels)

@@ -4,6 +4,7 @@ from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, Par
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
+from boxwright.types.segments import Segment, Segmentation
 from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
 
 __all__ = [
@@ -21,6 +22,8 @@ __all__ = [
     "Pose",
     "ScoreTerm",
     "Seconds",
+    "Segment",
+    "Segmentation",
     "Source",
     "SupportPlane",
     "TrueBox",

@@ -1,0 +1,47 @@
+"""Values on the command line that are several numbers in one word."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import typer
+
+
+class Triple(NamedTuple):
+    """A point or a direction, input's frame."""
+
+    x: float
+    y: float
+    z: float
+
+    @staticmethod
+    def parse(text: str) -> Triple:
+        """From "X,Y,Z"."""
+        x, y, z = _numbers(text, 3)
+        return Triple(x, y, z)
+
+
+class Bounds(NamedTuple):
+    """A region of interest, metres, input's frame."""
+
+    x_low: float
+    x_high: float
+    y_low: float
+    y_high: float
+    z_low: float
+    z_high: float
+
+    @staticmethod
+    def parse(text: str) -> Bounds:
+        """From "XLO,XHI,YLO,YHI,ZLO,ZHI"."""
+        return Bounds(*_numbers(text, 6))
+
+
+def _numbers(text: str, count: int) -> list[float]:
+    try:
+        values = [float(word) for word in text.split(",")]
+    except ValueError:
+        raise typer.BadParameter(f"{text!r} holds something that is no number; must be {count} numbers") from None
+    if len(values) != count:
+        raise typer.BadParameter(f"{text!r} has {len(values)} numbers; must be {count} with commas between them")
+    return values
