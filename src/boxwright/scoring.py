@@ -75,7 +75,7 @@ def score_entries(
     method: str,
     templates: tuple[str | Path, ...],
     weights: str | Path | None,
-    planes: str | None,
+    planes: str | None = None,
     jobs: int | None,
 ) -> Iterator[FrameOutcome]:
     """The outcome of each frame of a set, in order, whatever the number of threads. Arguments are `evaluate`'s."""

@@ -84,12 +84,12 @@ impl<'a> Beyond<'a> {
         if first_height_m > tolerance_m && last_height_m < -tolerance_m {
             return EdgeKind::Occluded;
         }
-        let in_one_plane = first_height_m.abs() <= tolerance_m && last_height_m.abs() <= tolerance_m;
-        let apart = (first - last).norm() > self.readings.cluster_gap_m() + tolerance_m;
-        if in_one_plane && apart {
-            EdgeKind::Edge
-        } else {
+        if (first - last).norm() <= self.readings.cluster_gap_m() + tolerance_m {
             EdgeKind::Crease
+        } else if first_height_m > tolerance_m {
+            EdgeKind::Occluded
+        } else {
+            EdgeKind::Edge
         }
     }
 
