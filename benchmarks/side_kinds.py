@@ -2,11 +2,12 @@
 
     python benchmarks/side_kinds.py SET... [--planes NAME]
 
-SET is a folder of NAME.pcd, NAME.truth.json, NAME.labels.npz. Judged are the sides of the rectangles of panels that are
-found (intersection over union of at least 0.7). A side that lies along a true edge of the panel is a crease where
-readings of an adjoining panel, or of the support, lie along it, else an edge. A side along which the true panel goes on
-is a border at the image's rim, occluded where a reading before the panel hides it. Others (slanted, without readings) are
-not judged.
+SET is a folder of NAME.pcd, NAME.truth.json, NAME.labels.npz. Judged are the sides of the rectangles of panels that
+are found (intersection over union of at least 0.7). A side that lies along a true edge of the panel is a crease where
+readings of a panel joined there, or of the support, lie along it, else an edge. "touched" is an edge along which
+readings of a panel lie that is not joined (flaps that stand up side by side): edge is right, and hard to tell. A side
+along which the true panel goes on is a border at the image's rim, occluded where a reading before the panel hides it.
+Others (slanted, without readings) are not judged.
 """
 
 from __future__ import annotations
@@ -29,6 +30,9 @@ from boxwright.types import Camera, Truth
 Array = NDArray[np.float64]
 
 KINDS = ("edge", "crease", "occluded", "border")
+RIGHT = {"edge": "edge", "touched": "edge", "crease": "crease", "occluded": "occluded", "border": "border"}
+"""What is right to say of a side, by what it truly is."""
+
 MIN_READINGS, MIN_IOU = 500, 0.7
 SAMPLES = 25
 NEAR_M = 0.02
@@ -37,8 +41,8 @@ BEYOND_M = 0.02
 """Whether the panel goes on is looked at so far outside a side."""
 HIDES_M = 0.03
 RIM_PX = 6
-MOST = 0.6
-"""The share of a side's samples that decides."""
+MOST, HALF = 0.6, 0.5
+"""The shares of a side's samples that decide: where it lies, and whether something lies along it."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +83,10 @@ def true_kind(frame: Frame, part: int, side: Array, inward: Array) -> str | None
     for k in range(4):
         edge = corners[k], corners[(k + 1) % 4]
         if np.mean(distances_to(samples, edge) < NEAR_M) >= MOST:
-            return "crease" if goes_on(frame, part, samples, edge) else "edge"
+            if goes_on(frame, part, samples, edge):
+                return "crease"
+            others = frame.points[(frame.labels > 0) & (frame.labels != part + 1)]
+            return "touched" if np.mean(near_any(samples, others)) >= HALF else "edge"
     beyond = samples - BEYOND_M * inward
     inside = within(corners, beyond)
     if np.mean(inside) < MOST:
@@ -106,7 +113,7 @@ def goes_on(frame: Frame, part: int, samples: Array, edge: tuple[Array, Array]) 
             joined |= near_any(samples, frame.points[frame.labels == k + 1])
     if own.name.startswith("side") and is_bottom(own.corners, edge):
         joined |= near_any(samples, floor_readings(frame, samples))
-    return bool(np.mean(joined) >= 0.5)
+    return bool(np.mean(joined) >= HALF)
 
 
 def is_bottom(corners: tuple[tuple[float, ...], ...], edge: tuple[Array, Array]) -> bool:
@@ -179,11 +186,11 @@ def main() -> None:
     if not counts:
         parser.error("no panel is found in the folders given")
     print(f"{'truth, sides':<18}" + "".join(f"{told:>10}" for told in KINDS) + f"{'right %':>10}")
-    for kind in KINDS:
+    for kind, right in RIGHT.items():
         row = [counts[kind, told] for told in KINDS]
-        right = f"{100 * counts[kind, kind] / sum(row):>10.1f}" if sum(row) else f"{'-':>10}"
-        print(f"{kind:<10}{sum(row):>8}" + "".join(f"{n:>10}" for n in row) + right)
-    right_sides = sum(counts[kind, kind] for kind in KINDS)
+        share = f"{100 * counts[kind, right] / sum(row):>10.1f}" if sum(row) else f"{'-':>10}"
+        print(f"{kind:<10}{sum(row):>8}" + "".join(f"{n:>10}" for n in row) + share)
+    right_sides = sum(counts[pair] for pair in RIGHT.items())
     print(f"{'all':<10}{counts.total():>8}{'':>40}{100 * right_sides / counts.total():>10.1f}")
 
 
