@@ -13,8 +13,13 @@ pub fn convex_hull(points: &[Point2]) -> Vec<Point2> {
     let mut sorted = points.to_vec();
     sorted.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     sorted.dedup();
+    convex_hull_of_sorted(&sorted)
+}
+
+/// The same for distinct points that are sorted by their first coordinate, then by their second.
+pub fn convex_hull_of_sorted(sorted: &[Point2]) -> Vec<Point2> {
     if sorted.len() < 3 {
-        return sorted;
+        return sorted.to_vec();
     }
     let mut hull = half_hull(sorted.iter());
     hull.pop();

@@ -10,7 +10,7 @@ mod rectangle;
 mod rng;
 
 pub use bounding::{minimum_rectangle, Rectangle2};
-pub use hull::{convex_hull, hull_contains, Point2};
+pub use hull::{convex_hull, convex_hull_of_sorted, hull_contains, Point2};
 pub use moments::Moments;
 pub use plane::Plane;
 pub use plane_frame::PlaneFrame;

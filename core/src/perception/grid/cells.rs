@@ -1,8 +1,13 @@
+use super::quads::{Quad, QUAD};
 use super::ray_moments::RayMoments;
 use super::rays::Rays;
+use std::ops::Range;
+use wide::f32x4;
 
 /// Side of a cell, pixels: small enough that a panel of 500 pixels has whole ones.
-pub const CELL_PX: usize = 4;
+pub const CELL_PX: usize = QUAD;
+/// Readings of a full cell.
+pub const FULL: f64 = (CELL_PX * CELL_PX) as f64;
 
 /// Moments of all cells of the image, row by row; the last column and row may be cut.
 pub struct Cells {
@@ -14,10 +19,11 @@ pub struct Cells {
 impl Cells {
     pub fn new(rays: &Rays) -> Self {
         let (columns, rows) = (rays.width.div_ceil(CELL_PX), rays.height.div_ceil(CELL_PX));
-        let mut moments = vec![RayMoments::default(); columns * rows];
-        for (row, out) in moments.chunks_exact_mut(columns).enumerate() {
-            for (column, cell) in out.iter_mut().enumerate() {
-                *cell = cell_moments(rays, column, row);
+        let mut moments = Vec::with_capacity(columns * rows);
+        for y in (0..rays.height).step_by(CELL_PX) {
+            let y_end = (y + CELL_PX).min(rays.height);
+            for x in (0..rays.width).step_by(CELL_PX) {
+                moments.push(cell_moments(rays, x, y..y_end));
             }
         }
         Self { columns, rows, moments }
@@ -37,49 +43,33 @@ impl Cells {
         [left, right, above, below].into_iter().flatten()
     }
 
-    /// The up to eight cells around a cell, row by row.
-    pub fn around(&self, cell: usize) -> impl Iterator<Item = usize> + '_ {
-        let (column, row) = ((cell % self.columns) as isize, (cell / self.columns) as isize);
-        (0..9).filter(|&k| k != 4).filter_map(move |k: isize| {
-            let (x, y) = (column + k % 3 - 1, row + k / 3 - 1);
-            let inside = x >= 0 && y >= 0 && x < self.columns as isize && y < self.rows as isize;
-            inside.then(|| y as usize * self.columns + x as usize)
-        })
-    }
-
-    /// The pixels of a cell, row by row.
-    pub fn pixels(&self, cell: usize, rays: &Rays) -> impl Iterator<Item = usize> {
+    /// First column and the rows of a cell's pixels.
+    pub fn place(&self, cell: usize, rays: &Rays) -> (usize, Range<usize>) {
         let (x, y) = (cell % self.columns * CELL_PX, cell / self.columns * CELL_PX);
-        let (x_end, y_end, width) = ((x + CELL_PX).min(rays.width), (y + CELL_PX).min(rays.height), rays.width);
-        (y..y_end).flat_map(move |row| row * width + x..row * width + x_end)
+        (x, y..(y + CELL_PX).min(rays.height))
     }
 }
 
-/// In single precision about the cell's first reading, so that four pixels go at a time, then shifted in double.
-fn cell_moments(rays: &Rays, column: usize, row: usize) -> RayMoments {
-    let (x, y) = (column * CELL_PX, row * CELL_PX);
-    let (x_end, y_end) = ((x + CELL_PX).min(rays.width), (y + CELL_PX).min(rays.height));
-    let pixel_of = |x: usize, y: usize| y * rays.width + x;
-    let mut pixels = (y..y_end).flat_map(|y| (x..x_end).map(move |x| pixel_of(x, y)));
-    let Some(first) = pixels.find(|&p| rays.is_reading(p)) else { return RayMoments::default() };
-    let reference = rays.ray(first);
-    let [u0, v0, q0] = reference.map(|c| c as f32);
-    let mut sums = [[0f32; CELL_PX]; 10];
-    for y in y..y_end {
-        let start = pixel_of(x, y);
-        let depth = &rays.inverse_depth[start..start + (x_end - x)];
-        let points = &rays.points[start..start + (x_end - x)];
-        for (lane, (&q, p)) in depth.iter().zip(points).enumerate() {
-            let one = if q > 0.0 { 1.0f32 } else { 0.0 };
-            // A missing reading's coordinates may be NaN: they must not be multiplied by nought.
-            let (u, v, q) = if q > 0.0 { (p[0] * q - u0, p[1] * q - v0, q - q0) } else { (0.0, 0.0, 0.0) };
-            let terms = [one, u, v, q, u * u, u * v, v * v, u * q, v * q, q * q];
-            for (sum, term) in sums.iter_mut().zip(terms) {
-                sum[lane] += term;
-            }
+/// In single precision about one of the cell's readings, four pixels at a time, then shifted in double.
+fn cell_moments(rays: &Rays, x: usize, rows: Range<usize>) -> RayMoments {
+    let (y, count) = (rows.start, rows.len());
+    let lines: [Quad; CELL_PX] = std::array::from_fn(|k| rays.quad(x, y + k.min(count - 1)));
+    let lines = &lines[..count];
+    let Some([u0, v0, q0]) = reference(lines) else { return RayMoments::default() };
+    let (u_zero, v_zero, q_zero) = (f32x4::splat(u0), f32x4::splat(v0), f32x4::splat(q0));
+    let mut sums = [f32x4::ZERO; 10];
+    for line in lines {
+        let seen = line.seen;
+        let (u, v, q) = ((line.u - u_zero) & seen, (line.v - v_zero) & seen, (line.q - q_zero) & seen);
+        let terms = [seen & f32x4::ONE, u, v, q, u * u, u * v, v * v, u * q, v * q, q * q];
+        for (sum, term) in sums.iter_mut().zip(terms) {
+            *sum += term;
         }
     }
-    let [n, u, v, q, uu, uv, vv, uq, vq, qq] = sums.map(|s| f64::from((s[0] + s[1]) + (s[2] + s[3])));
+    let [n, u, v, q, uu, uv, vv, uq, vq, qq] = sums.map(|s| {
+        let [a, b, c, d] = s.to_array();
+        f64::from((a + b) + (c + d))
+    });
     let [u0, v0, q0] = [f64::from(u0), f64::from(v0), f64::from(q0)];
     RayMoments {
         n,
@@ -93,4 +83,13 @@ fn cell_moments(rays: &Rays, column: usize, row: usize) -> RayMoments {
         vq: vq + v0 * q + q0 * v + n * v0 * q0,
         qq: qq + 2.0 * q0 * q + n * q0 * q0,
     }
+}
+
+/// u, v and q of the first reading.
+fn reference(lines: &[Quad]) -> Option<[f32; 3]> {
+    lines.iter().find_map(|line| {
+        let lane = line.seen.to_bitmask().trailing_zeros() as usize;
+        let pick = |values: f32x4| values.to_array()[lane];
+        (lane < QUAD).then(|| [pick(line.u), pick(line.v), pick(line.q)])
+    })
 }

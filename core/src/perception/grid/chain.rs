@@ -1,21 +1,21 @@
+use super::bases::add_bases;
 use super::cells::Cells;
-use super::ground::find_ground;
+use super::ground::{find_ground, Seen};
 use super::islands::runs_by_label;
 use super::merge::merge;
 use super::noise::Noise;
 use super::piece::Piece;
-use super::pixels::PixelLabels;
+use super::pixels::refine;
 use super::rays::Rays;
 use super::regions::{Regions, NONE};
-use super::things::{Sorting, Things};
+use super::runs::Runs;
+use super::things::Sorting;
 use crate::cloud::CloudView;
 use crate::error::Result;
-use crate::geometry::Plane;
 use crate::perception::clock::Clock;
 use crate::perception::readings::Readings;
 use crate::perception::scene::{EdgeKind, Scene, Segments};
 use crate::perception::PerceptionSettings;
-use std::borrow::Cow;
 
 /// From an organized cloud to its planar segments in a few milliseconds, on one thread.
 ///
@@ -23,25 +23,30 @@ use std::borrow::Cow;
 /// As of `perceive`.
 pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Result<Scene> {
     let mut clock = Clock::start();
-    let rays = Rays::new(Cow::Borrowed(cloud.points), cloud.width, cloud.height);
+    let rays = Rays::new(cloud);
     let cells = Cells::new(&rays);
     let noise = Noise::measure(&cells);
     clock.lap("cells");
     let mut regions = Regions::grow(&cells, &noise);
-    merge(&mut regions, &cells, &noise);
     clock.lap("regions");
-    let refined = PixelLabels::refine(&rays, &cells, &regions, &noise);
+    merge(&mut regions, &cells, &noise);
+    clock.lap("merging");
+    let labels = refine(&rays, &cells, &regions, &noise);
     clock.lap("borders");
-    let (labels, pieces) = pieces(&rays, refined, settings);
+    let runs = Runs::new(&labels, rays.width);
+    let (mut pieces, piece_of_label) = pieces(&rays, &runs, &regions, settings);
     clock.lap("outlines");
     let readings = Readings::new(cloud, settings);
-    let planes: Vec<Plane> = pieces.iter().map(|p| p.plane).collect();
-    let (ground, candidates) = find_ground(&readings, &labels, cloud.width, &pieces, &planes, settings)?;
+    let seen = Seen { labels: &labels, piece_of_label: &piece_of_label, width: rays.width, pieces: &pieces };
+    let (ground, support) = find_ground(&readings, &seen, &noise, settings)?;
     clock.lap("support");
-    let sorting = Sorting { rays: &rays, readings: &readings, ground: &ground, settings, planes: &planes };
-    let things = sorting.sort(pieces, ground.chosen.map(|c| candidates[c]));
-    let segments = to_segments(&things);
+    let sorting = Sorting { readings: &readings, ground: &ground, settings, support };
+    let mut group = sorting.groups(&pieces, &runs, &piece_of_label);
     clock.lap("groups");
+    add_bases(&rays, &sorting, &mut pieces, &mut group);
+    clock.lap("bases");
+    let segments = to_segments(&pieces, &group);
+    clock.lap("segments");
     Ok(Scene {
         up: ground.up,
         support: ground.support,
@@ -52,35 +57,34 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
     })
 }
 
-/// Pieces of enough readings; the label image then holds their numbers.
-fn pieces(rays: &Rays, refined: PixelLabels, settings: &PerceptionSettings) -> (Vec<u16>, Vec<Piece>) {
-    let mut labels = refined.labels;
+/// Pieces of enough readings, and the piece of each label.
+fn pieces(rays: &Rays, runs: &Runs, regions: &Regions, settings: &PerceptionSettings) -> (Vec<Piece>, Vec<u16>) {
     let mut pieces = Vec::new();
-    let mut number = vec![NONE; refined.moments.len()];
-    for (r, runs) in runs_by_label(&mut labels, rays.width, refined.moments.len()).into_iter().enumerate() {
+    let mut piece_of_label = vec![NONE; regions.list.len()];
+    for (label, runs) in runs_by_label(runs, regions.list.len()).into_iter().enumerate() {
         let points: usize = runs.iter().map(|r| r.len() as usize).sum();
         if points < settings.min_segment_points {
             continue;
         }
-        if let Some(piece) = Piece::new(rays, runs, &refined.moments[r]) {
-            number[r] = pieces.len() as u16;
+        if let Some(piece) = Piece::new(rays, runs, &regions.list[label].moments) {
+            piece_of_label[label] = pieces.len() as u16;
             pieces.push(piece);
         }
     }
-    labels.iter_mut().filter(|l| **l != NONE).for_each(|l| *l = number[usize::from(*l)]);
-    (labels, pieces)
+    (pieces, piece_of_label)
 }
 
-fn to_segments(things: &Things) -> Segments {
+fn to_segments(pieces: &[Piece], group: &[i32]) -> Segments {
     let mut out = Segments { point_starts: vec![0], ..Segments::default() };
-    for (piece, &group) in things.pieces.iter().zip(&things.group) {
+    out.point_indices.reserve_exact(pieces.iter().map(|p| p.points).sum());
+    for (piece, &group) in pieces.iter().zip(group) {
         out.planes.push(piece.plane);
         out.rectangles.push(piece.rectangle);
         out.hulls.push(piece.hull.clone());
         out.rms.push(piece.rms_m);
         out.edges.push([EdgeKind::Edge; 4]);
         out.group.push(group);
-        out.point_indices.extend(piece.pixels());
+        piece.runs.iter().for_each(|r| out.point_indices.extend(r.start..r.end));
         out.point_starts.push(out.point_indices.len() as u32);
     }
     out

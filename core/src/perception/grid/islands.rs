@@ -1,12 +1,10 @@
-use super::regions::NONE;
 use super::runs::{Run, Runs};
 
 /// Connected pixels of one label below this number are strays.
 const MIN_ISLAND_PX: u32 = 12;
 
-/// The runs of each label in image order, without strays; strays leave the label image too.
-pub fn runs_by_label(labels: &mut [u16], width: usize, count: usize) -> Vec<Vec<Run>> {
-    let runs = Runs::new(labels, width);
+/// The runs of each label in image order, without strays.
+pub fn runs_by_label(runs: &Runs, count: usize) -> Vec<Vec<Run>> {
     let component = runs.components(1);
     let mut size = vec![0; runs.runs.len()];
     for (run, &c) in runs.runs.iter().zip(&component) {
@@ -16,8 +14,6 @@ pub fn runs_by_label(labels: &mut [u16], width: usize, count: usize) -> Vec<Vec<
     for (run, &c) in runs.runs.iter().zip(&component) {
         if size[c as usize] >= MIN_ISLAND_PX {
             of_label[usize::from(run.label)].push(*run);
-        } else {
-            labels[run.start as usize..run.end as usize].fill(NONE);
         }
     }
     of_label

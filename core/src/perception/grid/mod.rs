@@ -1,5 +1,7 @@
 //! The fast front end for clouds with an image grid: planes grow from moments of small cells, in inverse depth.
 
+mod bases;
+mod camera;
 mod cells;
 mod chain;
 mod ground;
@@ -8,10 +10,13 @@ mod merge;
 mod noise;
 mod piece;
 mod pixels;
+mod pose;
+mod quads;
 mod ray_moments;
 mod rays;
 mod regions;
 mod runs;
 mod things;
+mod touching;
 
 pub use chain::perceive_on_grid;

@@ -1,4 +1,4 @@
-use super::cells::{Cells, CELL_PX};
+use super::cells::{Cells, CELL_PX, FULL};
 use super::ray_moments::{RayMoments, RayPlane};
 
 /// Side of the squares that the noise is measured on, in cells, and how many of them are needed.
@@ -15,7 +15,7 @@ const MOST: f64 = 0.006;
 /// Of a VGA camera that sees 60 degrees.
 const TYPICAL_PITCH: f64 = 0.0019;
 /// Variance of the columns and of the rows of a full cell's pixels, added.
-const CELL_VARIANCE_PX2: f64 = ((CELL_PX * CELL_PX - 1) as f64) / 6.0;
+const CELL_VARIANCE_PX2: f64 = (FULL - 1.0) / 6.0;
 /// Depth errors that vary slowly over the image, as a share of the depth (lens and baseline calibration).
 const BIAS_SHARE: f64 = 0.0018;
 
@@ -68,9 +68,8 @@ impl Noise {
 /// From the spread of the rays in the first full cells.
 fn pitch(cells: &Cells) -> f64 {
     const CELLS: usize = 64;
-    let full = (CELL_PX * CELL_PX) as f64;
     let variance = |m: &RayMoments| (m.uu + m.vv - (m.u * m.u + m.v * m.v) / m.n) / m.n;
-    let mut spreads: Vec<f64> = cells.moments.iter().filter(|m| m.n == full).take(CELLS).map(variance).collect();
+    let mut spreads: Vec<f64> = cells.moments.iter().filter(|m| m.n == FULL).take(CELLS).map(variance).collect();
     spreads.sort_unstable_by(f64::total_cmp);
     spreads.get(spreads.len() / 2).map_or(TYPICAL_PITCH, |v| (v / CELL_VARIANCE_PX2).sqrt())
 }

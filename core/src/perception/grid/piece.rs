@@ -1,9 +1,11 @@
 use super::ray_moments::{RayMoments, RayPlane};
 use super::rays::Rays;
 use super::runs::Run;
-use crate::geometry::{convex_hull, minimum_rectangle, Plane, PlaneFrame, Point2, Rectangle, Vec3};
+use crate::geometry::{
+    convex_hull, convex_hull_of_sorted, minimum_rectangle, Plane, PlaneFrame, Point2, Rectangle, Vec3,
+};
 
-/// A plane segment: its pixels and its outline, camera frame, metres.
+/// A plane segment: its pixels and its outline; input's frame, metres.
 #[derive(Debug, Clone)]
 pub struct Piece {
     /// In the image's order.
@@ -14,32 +16,35 @@ pub struct Piece {
     pub rms_m: f64,
     pub hull: Vec<Vec3>,
     pub rectangle: Rectangle,
+    moments: RayMoments,
 }
 
 impl Piece {
-    /// `None` where the runs span no plane that the camera could see.
+    /// `None` where the plane passes through the camera, or the pixels span no area on it.
     pub fn new(rays: &Rays, runs: Vec<Run>, moments: &RayMoments) -> Option<Self> {
         let (ray_plane, squares) = moments.fit()?;
         let plane = in_space(&ray_plane)?;
-        let corners = outermost(rays, &runs, &ray_plane);
+        let corners = hull_on_plane(rays, &runs, &ray_plane);
         let frame = PlaneFrame::new(&plane, corners.first()?);
         let flat: Vec<Point2> = corners.iter().map(|p| frame.to_plane(p)).collect();
         let hull = convex_hull(&flat);
         let rectangle = minimum_rectangle(&hull)?;
-        // A step in q at inverse depth q moves the reading by dq / q^2 along its ray, and off the plane by d/z of that.
+        // A step dq moves a reading by dq / q^2 in depth, and off the plane by q times the plane's distance of that.
         let q = moments.q / moments.n;
-        let rms_m = (squares / moments.n).sqrt() / q * -plane.distance;
+        let rms_m = (squares / moments.n).sqrt() / q * plane.distance.abs();
+        let to_input = |p: Vec3| rays.input_from_camera.point(&p);
         Some(Self {
             points: runs.iter().map(|r| r.len() as usize).sum(),
             runs,
-            plane,
+            plane: rays.input_from_camera.plane(&plane),
             rms_m,
-            hull: hull.iter().map(|c| frame.to_space(c)).collect(),
-            rectangle: Rectangle { corners: rectangle.corners.map(|c| frame.to_space(&c)) },
+            hull: hull.iter().map(|c| to_input(frame.to_space(c))).collect(),
+            rectangle: Rectangle { corners: rectangle.corners.map(|c| to_input(frame.to_space(&c))) },
+            moments: *moments,
         })
     }
 
-    /// Of pixels whose moments are not known yet.
+    /// Of pixels whose moments are not known.
     pub fn from_runs(rays: &Rays, runs: Vec<Run>) -> Option<Self> {
         let mut moments = RayMoments::default();
         for pixel in runs.iter().flat_map(|r| r.start..r.end) {
@@ -49,8 +54,18 @@ impl Piece {
         Self::new(rays, runs, &moments)
     }
 
-    pub fn pixels(&self) -> impl Iterator<Item = u32> + '_ {
-        self.runs.iter().flat_map(|r| r.start..r.end)
+    /// The same plane without some of its pixels; `None` where nothing is left.
+    pub fn without(&self, rays: &Rays, lost: &[Run]) -> Option<Self> {
+        let mut gone: Vec<u32> = lost.iter().map(|r| r.start).collect();
+        gone.sort_unstable();
+        let is_left = |r: &&Run| gone.binary_search(&r.start).is_err();
+        let left: Vec<Run> = self.runs.iter().filter(is_left).copied().collect();
+        Self::new(rays, left, &self.moments)
+    }
+
+    /// About so many of its pixels, spread evenly over its rows.
+    pub fn sample(&self, count: usize) -> impl Iterator<Item = u32> + '_ {
+        self.runs.iter().step_by(1 + self.runs.len() / count).map(|r| (r.start + r.end) / 2)
     }
 }
 
@@ -61,15 +76,24 @@ fn in_space(p: &RayPlane) -> Option<Plane> {
     (length > 1e-9 && length.is_finite()).then(|| Plane { normal: -n / length, distance: -1.0 / length })
 }
 
-/// Where the rays of the first and last pixel of each row meet the plane: the convex hull needs no others.
-fn outermost(rays: &Rays, runs: &[Run], plane: &RayPlane) -> Vec<Vec3> {
+/// Corners of the pixels' convex hull, where their rays meet the plane. A view keeps hulls, so that it is found among the
+/// first and last pixels of the rows, in the image.
+fn hull_on_plane(rays: &Rays, runs: &[Run], plane: &RayPlane) -> Vec<Vec3> {
     let width = rays.width as u32;
     let row = |r: &Run| r.start / width;
-    let meet = |pixel: u32| {
-        let [u, v, _] = rays.ray(pixel as usize);
+    let place = |pixel: u32| [f64::from(pixel / width), f64::from(pixel % width)];
+    let mut ends: Vec<Point2> = Vec::with_capacity(2 * rays.height);
+    for line in runs.chunk_by(|a, b| row(a) == row(b)) {
+        let (first, last) = (line[0].start, line[line.len() - 1].end - 1);
+        ends.push(place(first));
+        if last != first {
+            ends.push(place(last));
+        }
+    }
+    let meet = |&[y, x]: &Point2| {
+        let [u, v, _] = rays.ray(y as usize * rays.width + x as usize);
         let q = plane.inverse_depth(u, v);
         (q > 0.0).then(|| Vec3::new(u, v, 1.0) / q)
     };
-    let rows = runs.chunk_by(|a, b| row(a) == row(b));
-    rows.flat_map(|line| [line[0].start, line[line.len() - 1].end - 1]).filter_map(meet).collect()
+    convex_hull_of_sorted(&ends).iter().filter_map(meet).collect()
 }

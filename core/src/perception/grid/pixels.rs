@@ -1,130 +1,189 @@
-use super::cells::Cells;
+use super::cells::{Cells, CELL_PX, FULL};
 use super::noise::Noise;
-use super::ray_moments::RayMoments;
+use super::quads::QUAD;
+use super::ray_moments::RayPlane;
 use super::rays::Rays;
 use super::regions::{Regions, NONE};
+use wide::f32x4;
 
 /// A reading belongs to a plane within this many sigmas.
-const READING_SIGMAS: f64 = 2.6;
+const READING_SIGMAS: f32 = 2.6;
 /// How far, in cells, a region reaches beyond its own cells.
 const REACH_CELLS: usize = 3;
 /// Readings that make a cell pass a region on to the next.
 const MIN_PASSED: usize = 4;
+/// Regions around a cell, itself included, at most.
+const MAX_NEAR: usize = 9;
 
-/// Whose each pixel is, and the moments of each region's readings.
-pub struct PixelLabels {
-    pub labels: Vec<u16>,
-    pub moments: Vec<RayMoments>,
+/// Whose each pixel is: interiors whole; at the borders each reading goes to the plane that it fits best among those near.
+pub fn refine(rays: &Rays, cells: &Cells, regions: &Regions, noise: &Noise) -> Vec<u16> {
+    let models = regions.list.iter().map(|r| Model::new(&r.plane, noise)).collect();
+    let mut work = Refinement {
+        rays,
+        cells,
+        regions,
+        models,
+        bias: f32x4::splat(noise.bias_variance(1.0) as f32),
+        owner: Padded::new(cells, &regions.owner),
+        labels: vec![NONE; rays.points.len()],
+    };
+    let mut border = work.take_interiors();
+    let mut touched = vec![false; cells.len()];
+    border.iter().for_each(|&cell| touched[cell as usize] = true);
+    for _ in 0..REACH_CELLS {
+        let mut passed = Vec::new();
+        for &cell in &border {
+            passed.extend(work.take_best(cell as usize).map(|region| (cell, region)));
+        }
+        border = work.beyond(&passed, &mut touched);
+    }
+    work.labels
 }
 
-impl PixelLabels {
-    /// Interiors whole; at the borders each reading goes to the plane that it fits best among those that are near.
-    pub fn refine(rays: &Rays, cells: &Cells, regions: &Regions, noise: &Noise) -> Self {
-        let mut out = Self {
-            labels: vec![NONE; rays.inverse_depth.len()],
-            moments: vec![RayMoments::default(); regions.list.len()],
-        };
+/// A region's plane, ready for four pixels at a time.
+struct Model {
+    a: f32x4,
+    b: f32x4,
+    c: f32x4,
+    /// Of a reading on the plane, slow errors left out.
+    variance: f32x4,
+}
+
+impl Model {
+    fn new(plane: &RayPlane, noise: &Noise) -> Self {
+        let splat = |value: f64| f32x4::splat(value as f32);
+        let variance = splat(noise.variance_on(plane));
+        Self { a: splat(plane.a), b: splat(plane.b), c: splat(plane.c), variance }
+    }
+}
+
+struct Refinement<'a> {
+    rays: &'a Rays<'a>,
+    cells: &'a Cells,
+    regions: &'a Regions,
+    models: Vec<Model>,
+    /// Variance by slow errors at q = 1.
+    bias: f32x4,
+    owner: Padded,
+    labels: Vec<u16>,
+}
+
+impl Refinement<'_> {
+    /// Takes whole the cells amid their region; returns those at its border.
+    fn take_interiors(&mut self) -> Vec<u32> {
         let mut border = Vec::new();
-        for cell in 0..cells.len() {
-            let own = regions.owner[cell];
-            let is_interior = own != NONE && cells.around(cell).all(|c| regions.owner[c] == own);
-            if is_interior {
-                out.take_whole(rays, cells, cell, own);
-            } else if own != NONE || cells.around(cell).any(|c| regions.owner[c] != NONE) {
+        for cell in 0..self.cells.len() {
+            let own = self.regions.owner[cell];
+            if !self.owner.around(cell).iter().flatten().all(|&o| o == own) {
                 border.push(cell as u32);
+            } else if own != NONE {
+                self.take_whole(cell, own);
             }
         }
-        let mut near = Near::new(regions, &border);
-        for _ in 0..REACH_CELLS {
-            for &cell in &border {
-                out.take_best(rays, cells, regions, noise, cell as usize, &mut near);
-            }
-            border = near.next(cells);
-        }
-        out
+        border
     }
 
-    fn take_whole(&mut self, rays: &Rays, cells: &Cells, cell: usize, region: u16) {
-        for pixel in cells.pixels(cell, rays) {
-            if rays.is_reading(pixel) {
-                self.labels[pixel] = region;
+    fn take_whole(&mut self, cell: usize, region: u16) {
+        let (x, rows) = self.cells.place(cell, self.rays);
+        let is_full = self.cells.moments[cell].n == FULL;
+        for y in rows {
+            let start = y * self.rays.width + x;
+            if is_full {
+                self.labels[start..start + CELL_PX].fill(region);
+            } else {
+                let seen = self.rays.quad(x, y).seen.to_bitmask();
+                (0..QUAD).filter(|lane| seen >> lane & 1 == 1).for_each(|lane| self.labels[start + lane] = region);
             }
         }
-        self.moments[usize::from(region)].add(&cells.moments[cell]);
     }
 
-    fn take_best(
-        &mut self,
-        rays: &Rays,
-        cells: &Cells,
-        regions: &Regions,
-        noise: &Noise,
-        cell: usize,
-        near: &mut Near,
-    ) {
-        let mut candidates = [(NONE, 0usize, 0.0); 9];
-        let mut count = 0;
-        for c in cells.around(cell).chain([cell]) {
-            let owner = near.owner[c];
-            if owner != NONE && !candidates[..count].iter().any(|k| k.0 == owner) {
-                candidates[count] = (owner, 0, noise.variance_on(&regions.list[usize::from(owner)].plane));
+    /// Gives each reading of a cell to the best plane around; the region to pass on where the cell was nobody's.
+    fn take_best(&mut self, cell: usize) -> Option<u16> {
+        let (candidates, count) = self.candidates(cell);
+        let mut taken = [0usize; MAX_NEAR];
+        let (x, rows) = self.cells.place(cell, self.rays);
+        for y in rows {
+            let quad = self.rays.quad(x, y);
+            let bias = self.bias * quad.q * quad.q;
+            let mut least = f32x4::splat(READING_SIGMAS * READING_SIGMAS);
+            let mut best = f32x4::splat(-1.0);
+            for (k, &region) in candidates[..count].iter().enumerate() {
+                let Model { a, b, c, variance } = &self.models[usize::from(region)];
+                let off = quad.q - (*a * quad.u + *b * quad.v + *c);
+                let squared_sigmas = off * off / (*variance + bias);
+                let better = squared_sigmas.simd_lt(least) & quad.seen;
+                least = better.bitselect(squared_sigmas, least);
+                best = better.bitselect(f32x4::splat(k as f32), best);
+            }
+            let start = y * self.rays.width + x;
+            for (lane, k) in best.to_array().into_iter().enumerate().filter(|(_, k)| *k >= 0.0) {
+                self.labels[start + lane] = candidates[k as usize];
+                taken[k as usize] += 1;
+            }
+        }
+        let most = (0..count).fold(0, |best, k| if taken[k] > taken[best] { k } else { best });
+        (self.regions.owner[cell] == NONE && taken[most] >= MIN_PASSED).then(|| candidates[most])
+    }
+
+    /// The regions around a cell.
+    fn candidates(&self, cell: usize) -> ([u16; MAX_NEAR], usize) {
+        let (mut found, mut count) = ([NONE; MAX_NEAR], 0);
+        for &owner in self.owner.around(cell).iter().flatten() {
+            if owner != NONE && !found[..count].contains(&owner) {
+                found[count] = owner;
                 count += 1;
             }
         }
-        let candidates = &mut candidates[..count];
-        for pixel in cells.pixels(cell, rays) {
-            if !rays.is_reading(pixel) {
-                continue;
-            }
-            let [u, v, q] = rays.ray(pixel);
-            let bias = noise.bias_variance(q);
-            let mut best = (READING_SIGMAS * READING_SIGMAS, usize::MAX);
-            for (k, &(region, _, variance)) in candidates.iter().enumerate() {
-                let off = q - regions.list[usize::from(region)].plane.inverse_depth(u, v);
-                let squared_sigmas = off * off / (variance + bias);
-                if squared_sigmas < best.0 {
-                    best = (squared_sigmas, k);
-                }
-            }
-            if let Some((region, taken, _)) = candidates.get_mut(best.1) {
-                self.labels[pixel] = *region;
-                self.moments[usize::from(*region)].add_reading(u, v, q);
-                *taken += 1;
-            }
-        }
-        let most = candidates.iter().fold((NONE, 0), |best, c| if c.1 > best.1 { (c.0, c.1) } else { best });
-        if near.owner[cell] == NONE && most.1 >= MIN_PASSED {
-            near.passed.push((cell as u32, most.0));
-        }
-    }
-}
-
-/// Which region a cell near a border hands on.
-struct Near {
-    owner: Vec<u16>,
-    touched: Vec<bool>,
-    passed: Vec<(u32, u16)>,
-}
-
-impl Near {
-    fn new(regions: &Regions, border: &[u32]) -> Self {
-        let mut touched = vec![false; regions.owner.len()];
-        border.iter().for_each(|&cell| touched[cell as usize] = true);
-        Self { owner: regions.owner.clone(), touched, passed: Vec::new() }
+        (found, count)
     }
 
     /// The untouched cells beside those that were just passed on.
-    fn next(&mut self, cells: &Cells) -> Vec<u32> {
+    fn beyond(&mut self, passed: &[(u32, u16)], touched: &mut [bool]) -> Vec<u32> {
         let mut next = Vec::new();
-        for (cell, region) in std::mem::take(&mut self.passed) {
-            self.owner[cell as usize] = region;
-            for c in cells.beside(cell as usize) {
-                if self.owner[c] == NONE && !self.touched[c] {
-                    self.touched[c] = true;
+        for &(cell, region) in passed {
+            self.owner.set(cell as usize, region);
+            for c in self.cells.beside(cell as usize) {
+                if self.regions.owner[c] == NONE && !touched[c] {
+                    touched[c] = true;
                     next.push(c as u32);
                 }
             }
         }
         next
+    }
+}
+
+/// The cells' owners with a frame of nobody's around, so that every cell has eight neighbours.
+struct Padded {
+    owner: Vec<u16>,
+    columns: usize,
+}
+
+impl Padded {
+    fn new(cells: &Cells, owner: &[u16]) -> Self {
+        let columns = cells.columns;
+        let mut padded = vec![NONE; (columns + 2) * (cells.rows + 2)];
+        for (row, line) in owner.chunks_exact(columns).enumerate() {
+            let start = (row + 1) * (columns + 2) + 1;
+            padded[start..start + columns].copy_from_slice(line);
+        }
+        Self { owner: padded, columns }
+    }
+
+    fn corner(&self, cell: usize) -> usize {
+        cell / self.columns * (self.columns + 2) + cell % self.columns
+    }
+
+    fn around(&self, cell: usize) -> [[u16; 3]; 3] {
+        let corner = self.corner(cell);
+        std::array::from_fn(|y| {
+            let start = corner + y * (self.columns + 2);
+            [self.owner[start], self.owner[start + 1], self.owner[start + 2]]
+        })
+    }
+
+    fn set(&mut self, cell: usize, owner: u16) {
+        let place = self.corner(cell) + self.columns + 3;
+        self.owner[place] = owner;
     }
 }

@@ -1,39 +1,34 @@
+use super::pose::Pose;
+use super::quads::Quad;
 use std::borrow::Cow;
 
 /// Nearer than this is no reading of a depth camera, metres.
-const NEAREST_M: f32 = 0.05;
+pub const NEAREST_M: f32 = 0.05;
+/// Farther than this, or farther aside, neither.
+pub const FARTHEST_M: f32 = 1e4;
 
-/// An organized cloud in its camera's frame, and what the sensor measures: inverse depth.
+/// An organized cloud in its camera's frame: x right, y down (of any roll), z along the optical axis, metres.
 pub struct Rays<'a> {
-    /// x right, y down (of any roll), z along the optical axis, metres.
     pub points: Cow<'a, [[f32; 3]]>,
     pub width: usize,
     pub height: usize,
-    /// 1/z of each reading, 1/m; 0 for none.
-    pub inverse_depth: Vec<f32>,
+    pub input_from_camera: Pose,
 }
 
-impl<'a> Rays<'a> {
-    pub fn new(points: Cow<'a, [[f32; 3]]>, width: usize, height: usize) -> Self {
-        let inverse = |p: &[f32; 3]| {
-            let seen = p[2] > NEAREST_M && p[2] < f32::INFINITY && (p[0] + p[1]).is_finite();
-            if seen {
-                1.0 / p[2]
-            } else {
-                0.0
-            }
-        };
-        let inverse_depth = points.iter().map(inverse).collect();
-        Self { points, width, height, inverse_depth }
+impl Rays<'_> {
+    /// The pixels `x..` of row `y`; those past the image's right end are no readings.
+    pub fn quad(&self, x: usize, y: usize) -> Quad {
+        let row = &self.points[y * self.width..][..self.width];
+        match row[x..].first_chunk() {
+            Some(points) => Quad::new(points),
+            None => Quad::cut(row, x, self.width),
+        }
     }
 
-    /// u, v and q of a reading.
+    /// What the sensor measured: the ray `(u, v, 1)` and the inverse depth q, 1/m.
     pub fn ray(&self, pixel: usize) -> [f64; 3] {
-        let (q, [x, y, _]) = (self.inverse_depth[pixel], self.points[pixel]);
+        let [x, y, z] = self.points[pixel];
+        let q = 1.0 / z;
         [f64::from(x * q), f64::from(y * q), f64::from(q)]
-    }
-
-    pub fn is_reading(&self, pixel: usize) -> bool {
-        self.inverse_depth[pixel] > 0.0
     }
 }

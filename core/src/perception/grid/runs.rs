@@ -21,49 +21,89 @@ pub struct Runs {
     pub runs: Vec<Run>,
     /// The runs of row `y` are `runs[starts[y]..starts[y + 1]]`.
     starts: Vec<u32>,
-    width: u32,
+    pub width: u32,
 }
 
 impl Runs {
     pub fn new(labels: &[u16], width: usize) -> Self {
-        let mut runs = Vec::new();
+        let mut runs = Vec::with_capacity(labels.len() / 64);
         let mut starts = vec![0];
         for (row, line) in labels.chunks_exact(width).enumerate() {
-            let offset = (row * width) as u32;
+            let offset = row * width;
             let mut x = 0;
-            for same in line.chunk_by(|a, b| a == b) {
-                let end = x + same.len() as u32;
-                if same[0] != NONE {
-                    runs.push(Run { start: offset + x, end: offset + end, label: same[0] });
+            while x < width {
+                let (start, label) = (x, line[x]);
+                x = end_of_run(line, x);
+                if label != NONE {
+                    runs.push(Run { start: (offset + start) as u32, end: (offset + x) as u32, label });
                 }
-                x = end;
             }
             starts.push(runs.len() as u32);
         }
         Self { runs, starts, width: width as u32 }
     }
 
+    /// Of pixels in order: all of one label.
+    pub fn of_one(runs: Vec<Run>, width: usize, height: usize) -> Self {
+        let row_of = |run: &Run| run.start as usize / width;
+        let starts = (0..=height).map(|row| runs.partition_point(|r| row_of(r) < row) as u32).collect();
+        Self { runs, starts, width: width as u32 }
+    }
+
+    pub fn rows(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Numbers of the runs of a row.
+    pub fn of_row(&self, row: usize) -> std::ops::Range<usize> {
+        self.starts[row] as usize..self.starts[row + 1] as usize
+    }
+
+    /// Calls `met` with each pair of runs of two rows, the first above the second, and how many columns they share.
+    pub fn for_shared(&self, upper: usize, lower: usize, mut met: impl FnMut(usize, usize, u32)) {
+        let down = (lower - upper) as u32 * self.width;
+        let (above, here) = (self.of_row(upper), self.of_row(lower));
+        let (mut a, mut b) = (above.start, here.start);
+        while a < above.end && b < here.end {
+            let (one, other) = (self.runs[a], self.runs[b]);
+            let (start, end) = (one.start + down, one.end + down);
+            let shared = end.min(other.end).saturating_sub(start.max(other.start));
+            if shared > 0 {
+                met(a, b, shared);
+            }
+            if end < other.end {
+                a += 1;
+            } else {
+                b += 1;
+            }
+        }
+    }
+
     /// Connected runs of equal label: those that share at least `overlap` columns in neighbouring rows. The number of each
     /// run's component is that of its first run.
     pub fn components(&self, overlap: u32) -> Vec<u32> {
         let mut sets = UnionFind::new(self.runs.len());
-        for row in 1..self.starts.len() - 1 {
-            let (mut above, above_end) = (self.starts[row - 1] as usize, self.starts[row] as usize);
-            let (mut here, here_end) = (above_end, self.starts[row + 1] as usize);
-            while above < above_end && here < here_end {
-                let (a, b) = (self.runs[above], self.runs[here]);
-                let (a_start, a_end) = (a.start + self.width, a.end + self.width);
-                let shared = a_end.min(b.end).saturating_sub(a_start.max(b.start));
-                if a.label == b.label && shared >= overlap {
-                    sets.join(above, here);
+        for row in 1..self.rows() {
+            self.for_shared(row - 1, row, |a, b, shared| {
+                if self.runs[a].label == self.runs[b].label && shared >= overlap {
+                    sets.join(a, b);
                 }
-                if a_end < b.end {
-                    above += 1;
-                } else {
-                    here += 1;
-                }
-            }
+            });
         }
         (0..self.runs.len()).map(|run| sets.find(run) as u32).collect()
     }
+}
+
+/// Where the label of pixel `x` of a row ends; long runs go eight pixels at a time.
+fn end_of_run(line: &[u16], x: usize) -> usize {
+    const STEP: usize = 8;
+    let label = line[x];
+    let mut end = x + 1;
+    while let Some(next) = line[end..].first_chunk::<STEP>() {
+        if *next != [label; STEP] {
+            break;
+        }
+        end += STEP;
+    }
+    line[end..].iter().position(|&l| l != label).map_or(line.len(), |more| end + more)
 }

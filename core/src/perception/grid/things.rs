@@ -1,199 +1,98 @@
-//! Which pieces belong together, which are the room's, and which are bases.
+//! Which pieces belong together, and which are the room's.
 
 use super::piece::Piece;
-use super::rays::Rays;
-use super::runs::{Run, Runs};
-use crate::geometry::{Plane, PlaneFrame, Point2};
-use crate::perception::ransac::clusters::clusters;
-use crate::perception::ransac::enclosure::Enclosure;
-use crate::perception::ransac::parting::Walls;
+use super::runs::Runs;
+use super::touching::touching;
+use crate::geometry::{convex_hull, Plane, PlaneFrame, Point2, Vec3};
+use crate::perception::ransac::clusters::overlap;
+use crate::perception::ransac::components::UnionFind;
 use crate::perception::ransac::support::Ground;
 use crate::perception::readings::Readings;
 use crate::perception::scene::BACKGROUND;
 use crate::perception::PerceptionSettings;
 
-/// Every so many pixels of a piece stand for it where groups are formed.
-const STRIDE: usize = 4;
-/// Pieces of the support that meet in fewer columns of neighbouring rows are apart: a wall seen from above parts them.
-const MIN_BRIDGE_PX: u32 = 3;
-/// Upright pieces without which nothing is enclosed.
-const MIN_WALLS: usize = 2;
 /// Pieces on the support lean less than this from it.
 const LEVEL_COSINE: f64 = 0.996;
+/// Readings of a piece that its height is taken from.
+const HEIGHT_SAMPLE: usize = 64;
+/// Gaps are bridged that the noise allows for, in sigmas.
+const GAP_SIGMAS: f64 = 2.5;
 
-/// Pieces with their groups.
-pub struct Things {
-    pub pieces: Vec<Piece>,
-    pub group: Vec<i32>,
-}
-
+/// What sorts pieces into things.
 pub struct Sorting<'a> {
-    pub rays: &'a Rays<'a>,
     pub readings: &'a Readings<'a>,
     pub ground: &'a Ground,
     pub settings: &'a PerceptionSettings,
-    /// Planes of the pieces in the input's frame.
-    pub planes: &'a [Plane],
+    /// The piece that the ground was read from.
+    pub support: Option<usize>,
 }
 
 impl Sorting<'_> {
-    /// Sorts the pieces: `support` is the one that the ground was read from.
-    pub fn sort(&self, pieces: Vec<Piece>, support: Option<usize>) -> Things {
-        let is_room: Vec<bool> = (0..pieces.len()).map(|p| Some(p) == support || self.is_room(&pieces[p], p)).collect();
-        let mut group = vec![BACKGROUND; pieces.len()];
-        let things: Vec<usize> = (0..pieces.len()).filter(|&p| !is_room[p]).collect();
-        let footprints = self.group(&pieces, &things, &mut group);
-        let mut out = Things { pieces, group };
-        if let (Some(plane), Some(support)) = (self.ground.support, support) {
-            self.add_bases(&mut out, &plane, support, &is_room, &footprints);
-        }
-        out
+    /// The group of each piece: the largest is 0, the room's pieces are `BACKGROUND`. `piece_of_label` is of the runs.
+    pub fn groups(&self, pieces: &[Piece], runs: &Runs, piece_of_label: &[u16]) -> Vec<i32> {
+        let is_thing: Vec<bool> = (0..pieces.len()).map(|p| !self.is_room(&pieces[p], p)).collect();
+        let thing = |label: u16| {
+            let piece = usize::from(*piece_of_label.get(usize::from(label))?);
+            (*is_thing.get(piece)?).then_some(piece)
+        };
+        let mut sets = touching(self.readings, runs, pieces.len(), thing, self.gap_m(pieces, &is_thing));
+        self.join_overlapping(pieces, &is_thing, &mut sets);
+        number_by_size(pieces, &is_thing, &mut sets)
     }
 
     /// Walls of the room, and what lies on or below the support.
     fn is_room(&self, piece: &Piece, p: usize) -> bool {
-        if piece.rectangle.size().iter().any(|&side| side > self.settings.largest_thing_m) {
+        if Some(p) == self.support || piece.rectangle.size().iter().any(|&side| side > self.settings.largest_thing_m) {
             return true;
         }
         let Some(support) = &self.ground.support else { return false };
-        let heights = self.sample(piece).map(|i| {
-            let point = self.readings.point(i);
-            support.height_of(&point) / self.readings.tolerance_m(&point)
-        });
-        let (sum, count) = heights.fold((0.0, 0.0), |(s, n), h| (s + h, n + 1.0));
-        let height = sum / count;
-        let level = self.planes[p].normal.dot(&support.normal) > LEVEL_COSINE;
+        let height = self.mean_height(piece, support, |p| self.readings.tolerance_m(p));
+        let level = piece.plane.normal.dot(&support.normal) > LEVEL_COSINE;
         height < -1.0 || (level && height < 1.0)
     }
 
-    fn sample<'p>(&self, piece: &'p Piece) -> impl Iterator<Item = u32> + 'p {
-        piece.runs.iter().step_by(1 + piece.runs.len() / 64).map(|r| (r.start + r.end) / 2)
+    /// Mean height over the support, in units of `unit_m`.
+    pub fn mean_height(&self, piece: &Piece, support: &Plane, unit_m: impl Fn(&Vec3) -> f64) -> f64 {
+        let points = piece.sample(HEIGHT_SAMPLE).map(|i| self.readings.point(i));
+        let (sum, count) = points.fold((0.0, 0.0), |(sum, n), p| (sum + support.height_of(&p) / unit_m(&p), n + 1.0));
+        sum / count
     }
 
-    /// Numbers the groups of things; returns the readings of each.
-    fn group(&self, pieces: &[Piece], things: &[usize], group: &mut [i32]) -> Vec<Vec<u32>> {
-        let mut owner = Vec::new();
-        for &p in things {
-            owner.extend(pieces[p].pixels().step_by(STRIDE).map(|i| (i, p)));
+    /// The gap that is bridged: at least what the noise of the middle piece allows for.
+    fn gap_m(&self, pieces: &[Piece], is_thing: &[bool]) -> f64 {
+        let things = pieces.iter().zip(is_thing).filter(|(_, &t)| t);
+        let mut sigmas: Vec<f64> = things.map(|(p, _)| self.readings.sigma_m(&p.rectangle.center())).collect();
+        sigmas.sort_unstable_by(f64::total_cmp);
+        sigmas.get(sigmas.len() / 2).map_or(0.0, |s| GAP_SIGMAS * s).max(self.settings.cluster_gap_m)
+    }
+
+    /// Groups whose outlines on the support overlap are one thing: the near wall of a box, seen from outside, and its far
+    /// wall, seen from inside, can be a box's length apart.
+    fn join_overlapping(&self, pieces: &[Piece], is_thing: &[bool], sets: &mut UnionFind) {
+        let frame = PlaneFrame::new(&Plane { normal: self.ground.up, distance: 0.0 }, &Vec3::zeros());
+        let mut footprints: Vec<Vec<Point2>> = vec![Vec::new(); pieces.len()];
+        for p in (0..pieces.len()).filter(|&p| is_thing[p]) {
+            footprints[sets.find(p)].extend(pieces[p].hull.iter().map(|c| frame.to_plane(c)));
         }
-        owner.sort_unstable();
-        let sampled: Vec<u32> = owner.iter().map(|o| o.0).collect();
-        let found = clusters(self.readings, &sampled, self.ground, self.settings);
-        let mut votes = vec![vec![0usize; found.len()]; pieces.len()];
-        for (g, members) in found.iter().enumerate() {
-            for i in members {
-                if let Ok(k) = owner.binary_search_by_key(i, |o| o.0) {
-                    votes[owner[k].1][g] += 1;
+        let outlines: Vec<Vec<Point2>> = footprints.iter().map(|f| convex_hull(f)).collect();
+        for a in (0..pieces.len()).filter(|&a| !outlines[a].is_empty()) {
+            for b in (0..a).filter(|&b| !outlines[b].is_empty()) {
+                if overlap(&outlines[a], &outlines[b]) {
+                    sets.join(a, b);
                 }
             }
         }
-        for &p in things {
-            let most = votes[p].iter().copied().max().unwrap_or(0);
-            if let Some(g) = votes[p].iter().position(|&v| v == most && most > 0) {
-                group[p] = g as i32;
-            }
-        }
-        found
-    }
-
-    /// Parts of the support, and level pieces on it, that a group's walls enclose are bases of that group.
-    fn add_bases(&self, out: &mut Things, support: &Plane, main: usize, is_room: &[bool], footprints: &[Vec<u32>]) {
-        let frame = PlaneFrame::new(support, &self.readings.point(out.pieces[main].runs[0].start));
-        let flat = |points: &[u32]| {
-            let every = 1 + points.len() / 256;
-            points.iter().step_by(every).map(|&i| frame.to_plane(&self.readings.point(i))).collect::<Vec<Point2>>()
-        };
-        let (rest, mut patches) = self.patches(&out.pieces[main]);
-        let low =
-            (0..out.pieces.len()).filter(|&p| p != main && is_room[p] && self.is_in_band(&out.pieces[p], support));
-        let low: Vec<usize> = low.collect();
-        let mut taken = vec![false; out.pieces.len()];
-        let mut added: Vec<(Piece, i32)> = Vec::new();
-        for (g, members) in footprints.iter().enumerate() {
-            let of_group: Vec<usize> = (0..out.group.len()).filter(|&p| out.group[p] == g as i32).collect();
-            let is_wall =
-                |p: &usize| self.planes[*p].normal.dot(&support.normal).abs() < self.settings.wall_tilt_rad.sin();
-            if of_group.iter().filter(|p| is_wall(p)).count() < MIN_WALLS {
-                continue;
-            }
-            let above = |i: &&u32| support.height_of(&self.readings.point(**i)) > self.settings.base_band_m;
-            let standing: Vec<Point2> =
-                members.iter().filter(above).map(|&i| frame.to_plane(&self.readings.point(i))).collect();
-            let Some(enclosure) = Enclosure::new(&standing, self.settings.base_margin_m) else { continue };
-            let mut mine: Vec<Vec<u32>> = Vec::new();
-            patches.retain(|patch| {
-                let points: Vec<u32> = patch.iter().flat_map(|r| r.start..r.end).collect();
-                let inside = enclosure.encloses(&flat(&points));
-                if inside {
-                    mine.push(points);
-                }
-                !inside
-            });
-            for &p in &low {
-                let points: Vec<u32> = out.pieces[p].pixels().collect();
-                if !taken[p] && enclosure.encloses(&flat(&points)) {
-                    taken[p] = true;
-                    mine.push(points);
-                }
-            }
-            let walls = of_group.iter().filter(|p| is_wall(p));
-            let walls = Walls::new(walls.map(|&p| flat(&out.pieces[p].pixels().collect::<Vec<u32>>())));
-            for points in walls.join_unparted(mine, flat) {
-                let piece = Piece::from_runs(self.rays, to_runs(&points, self.rays.width as u32));
-                added.extend(piece.map(|piece| (piece, g as i32)));
-            }
-        }
-        let mut ground_runs = rest;
-        ground_runs.extend(patches.into_iter().flatten());
-        ground_runs.sort_unstable_by_key(|r| r.start);
-        if let Some(ground) = Piece::from_runs(self.rays, ground_runs) {
-            out.pieces[main] = ground;
-        }
-        let mut kept = taken.iter().map(|t| !t);
-        let keep: Vec<bool> = kept.by_ref().collect();
-        let mut flags = keep.iter();
-        out.pieces.retain(|_| *flags.next().unwrap_or(&true));
-        let mut flags = keep.iter();
-        out.group.retain(|_| *flags.next().unwrap_or(&true));
-        for (piece, g) in added {
-            out.pieces.push(piece);
-            out.group.push(g);
-        }
-    }
-
-    /// The largest connected part of the support and strays, and each other part.
-    fn patches(&self, support: &Piece) -> (Vec<Run>, Vec<Vec<Run>>) {
-        let mut labels = vec![super::regions::NONE; self.rays.inverse_depth.len()];
-        support.runs.iter().for_each(|r| labels[r.start as usize..r.end as usize].fill(0));
-        let runs = Runs::new(&labels, self.rays.width);
-        let component = runs.components(MIN_BRIDGE_PX);
-        let mut parts: Vec<(u32, Vec<Run>)> = vec![(0, Vec::new()); runs.runs.len()];
-        for (run, &c) in runs.runs.iter().zip(&component) {
-            let part = &mut parts[c as usize];
-            part.0 += run.len();
-            part.1.push(*run);
-        }
-        let largest = (0..parts.len()).fold(0, |best, k| if parts[k].0 > parts[best].0 { k } else { best });
-        let mut rest = Vec::new();
-        let mut patches = Vec::new();
-        for (k, (size, runs)) in parts.into_iter().enumerate() {
-            if k == largest || (size as usize) < self.settings.min_segment_points {
-                rest.extend(runs);
-            } else {
-                patches.push(runs);
-            }
-        }
-        (rest, patches)
-    }
-
-    fn is_in_band(&self, piece: &Piece, support: &Plane) -> bool {
-        let heights = self.sample(piece).map(|i| support.height_of(&self.readings.point(i)));
-        let (sum, count) = heights.fold((0.0, 0.0), |(s, n), h| (s + h, n + 1.0));
-        (sum / count).abs() < self.settings.base_band_m
     }
 }
 
-fn to_runs(points: &[u32], width: u32) -> Vec<Run> {
-    let same = |a: &u32, b: &u32| *b == a + 1 && !b.is_multiple_of(width);
-    points.chunk_by(same).map(|c| Run { start: c[0], end: c[c.len() - 1] + 1, label: 0 }).collect()
+fn number_by_size(pieces: &[Piece], is_thing: &[bool], sets: &mut UnionFind) -> Vec<i32> {
+    let mut size = vec![0; pieces.len()];
+    for p in (0..pieces.len()).filter(|&p| is_thing[p]) {
+        size[sets.find(p)] += pieces[p].points;
+    }
+    let mut order: Vec<usize> = (0..pieces.len()).filter(|&p| size[p] > 0).collect();
+    order.sort_by_key(|&p| std::cmp::Reverse(size[p]));
+    let mut number = vec![BACKGROUND; pieces.len()];
+    order.iter().enumerate().for_each(|(g, &p)| number[p] = g as i32);
+    (0..pieces.len()).map(|p| if is_thing[p] { number[sets.find(p)] } else { BACKGROUND }).collect()
 }

@@ -56,7 +56,13 @@ impl SupportBand {
         let mut patches: Vec<Vec<u32>> = self.patches.iter().filter(encloses).cloned().collect();
         patches.extend(segments.iter().filter(|s| is_base(s)).map(|s| s.points.clone()));
         let walls = Walls::new(segments.iter().filter(|s| self.is_wall(s, settings)).map(|s| flat(&s.points)));
-        let bases = walls.join_unparted(patches, flat).into_iter().filter_map(|p| self.segment_of(readings, p));
+        let footprints: Vec<Vec<Point2>> = patches.iter().map(|p| flat(p)).collect();
+        let joined = walls.join_unparted(&footprints).into_iter().map(|members| {
+            let mut points: Vec<u32> = members.iter().flat_map(|&k| patches[k].iter().copied()).collect();
+            points.sort_unstable();
+            points
+        });
+        let bases = joined.filter_map(|points| self.segment_of(readings, points));
         let is_enough =
             |s: &Segment| s.points.len() >= settings.min_segment_points && s.area_m2 >= settings.min_segment_area_m2;
         let bases: Vec<Segment> = bases.filter(is_enough).collect();

@@ -91,7 +91,7 @@ fn outline(readings: &Readings, members: &[u32], frame: &PlaneFrame) -> Vec<Poin
 }
 
 /// Whether enough of either outline lies inside the other.
-fn overlap(a: &[Point2], b: &[Point2]) -> bool {
+pub fn overlap(a: &[Point2], b: &[Point2]) -> bool {
     let share = |inner: &[Point2], outer: &[Point2]| {
         let n = inner.len() as f64;
         let center = inner.iter().fold([0.0; 2], |c, p| [c[0] + p[0] / n, c[1] + p[1] / n]);

@@ -82,7 +82,7 @@ impl PlaneSearch<'_> {
         let first = pool[rng.below(pool.len())] as usize;
         let second = self.site_near(first, free, rng)?;
         let third = self.site_near(first, free, rng)?;
-        let at = |s: usize| self.sites.centers[s];
+        let at = |s: usize| self.sites.surfels.centers[s];
         let (a, b) = (at(second) - at(first), at(third) - at(first));
         let cross = a.cross(&b);
         // Slivers: less than about 17 degrees between the two arms.
@@ -101,7 +101,7 @@ impl PlaneSearch<'_> {
         for _ in 0..TRIES {
             // Along the surface where it is known: a cell of the box around would mostly be empty.
             let offset = Vec3::new(f64::from(step()), f64::from(step()), f64::from(step()));
-            let normal = &self.sites.normals[first];
+            let normal = &self.sites.surfels.normals[first];
             let flat = offset - normal * normal.dot(&offset);
             let [dx, dy, dz] = [flat.x.round() as i32, flat.y.round() as i32, flat.z.round() as i32];
             if let Some(found) = self.sites.voxels.find([x + dx, y + dy, z + dz]) {
@@ -122,12 +122,13 @@ impl PlaneSearch<'_> {
     }
 
     fn is_inlier(&self, plane: &Plane, site: usize) -> bool {
-        plane.height_of(&self.sites.centers[site]).abs() <= self.sites.tolerance_m[site] && self.agrees(plane, site)
+        plane.height_of(&self.sites.surfels.centers[site]).abs() <= self.sites.surfels.tolerance_m[site]
+            && self.agrees(plane, site)
     }
 
     /// Whether the site's surroundings are not known to lean away from the plane.
     fn agrees(&self, plane: &Plane, site: usize) -> bool {
-        let normal = &self.sites.normals[site];
+        let normal = &self.sites.surfels.normals[site];
         *normal == Vec3::zeros() || normal.dot(&plane.normal).abs() >= self.settings.normal_tolerance_rad.cos()
     }
 
@@ -149,7 +150,7 @@ impl PlaneSearch<'_> {
     }
 
     fn largest_piece(&self, plane: &Plane, free: &[bool]) -> Vec<u32> {
-        let (component, count) = components(&self.sites.neighbours, |s| free[s] && self.is_inlier(plane, s));
+        let (component, count) = components(&self.sites.surfels.neighbours, |s| free[s] && self.is_inlier(plane, s));
         let mut worth = vec![0.0; count];
         for (s, &c) in component.iter().enumerate().filter(|(_, &c)| c != NONE) {
             worth[c as usize] += self.worth[s];

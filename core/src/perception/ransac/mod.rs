@@ -5,7 +5,7 @@ mod chain;
 pub mod clusters;
 pub mod components;
 mod crease;
-mod draws;
+pub mod draws;
 pub mod enclosure;
 mod footing;
 pub mod parting;
@@ -13,6 +13,7 @@ mod planes;
 pub mod scene_planes;
 pub mod sites;
 pub mod support;
-mod voxels;
+pub mod surfels;
+pub mod voxels;
 
 pub use chain::perceive_by_ransac;

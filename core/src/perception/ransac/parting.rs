@@ -15,9 +15,9 @@ impl Walls {
         Self { lines: footprints.filter(|f| !f.is_empty()).map(|f| line_along(&f)).collect() }
     }
 
-    /// Joins patches of points whose middles no wall parts; each result in input order.
-    pub fn join_unparted(&self, patches: Vec<Vec<u32>>, flat: impl Fn(&[u32]) -> Vec<Point2>) -> Vec<Vec<u32>> {
-        let middles: Vec<Point2> = patches.iter().map(|p| middle(&flat(p))).collect();
+    /// Joins patches whose middles no wall parts; each result lists patches in order.
+    pub fn join_unparted(&self, patches: &[Vec<Point2>]) -> Vec<Vec<usize>> {
+        let middles: Vec<Point2> = patches.iter().map(|p| middle(p)).collect();
         let mut sets = UnionFind::new(patches.len());
         for a in 0..patches.len() {
             for b in 0..a {
@@ -27,11 +27,8 @@ impl Walls {
             }
         }
         let mut joined = vec![Vec::new(); patches.len()];
-        for (k, patch) in patches.into_iter().enumerate() {
-            joined[sets.find(k)].extend(patch);
-        }
-        joined.retain(|points| !points.is_empty());
-        joined.iter_mut().for_each(|points| points.sort_unstable());
+        (0..patches.len()).for_each(|k| joined[sets.find(k)].push(k));
+        joined.retain(|members| !members.is_empty());
         joined
     }
 
@@ -71,12 +68,12 @@ mod tests {
 
     #[test]
     fn a_wall_parts_and_its_absence_joins() {
-        let flat = |points: &[u32]| points.iter().map(|&i| [f64::from(i), 0.0]).collect::<Vec<_>>();
-        let patches = vec![vec![0, 1], vec![9, 10], vec![2, 3]];
+        let patches: Vec<Vec<Point2>> =
+            [[0.0, 1.0], [9.0, 10.0], [2.0, 3.0]].map(|xs| xs.map(|x| [x, 0.0]).to_vec()).to_vec();
         let wall: Vec<Point2> = (0..100).map(|k| [5.0, f64::from(k) / 50.0 - 1.0]).collect();
-        let parted = Walls::new([wall].into_iter()).join_unparted(patches.clone(), flat);
-        assert_eq!(parted, vec![vec![0, 1, 2, 3], vec![9, 10]]);
-        let whole = Walls::new(std::iter::empty()).join_unparted(patches, flat);
-        assert_eq!(whole, vec![vec![0, 1, 2, 3, 9, 10]]);
+        let parted = Walls::new([wall].into_iter()).join_unparted(&patches);
+        assert_eq!(parted, vec![vec![0, 2], vec![1]]);
+        let whole = Walls::new(std::iter::empty()).join_unparted(&patches);
+        assert_eq!(whole, vec![vec![0, 1, 2]]);
     }
 }

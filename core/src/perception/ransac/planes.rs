@@ -73,7 +73,9 @@ fn fold_all(
     for (k, segment) in segments.iter().enumerate() {
         let Some([one, other]) = fold(readings, segment, settings) else { continue };
         let new = planes.len() as u32;
-        let nearer = |s: usize| other.height_of(&sites.centers[s]).abs() < one.height_of(&sites.centers[s]).abs();
+        let nearer = |s: usize| {
+            other.height_of(&sites.surfels.centers[s]).abs() < one.height_of(&sites.surfels.centers[s]).abs()
+        };
         for (site, owner) in owner.iter_mut().enumerate().filter(|(_, o)| **o == k as u32) {
             if nearer(site) {
                 *owner = new;
@@ -140,7 +142,7 @@ fn claim_cells(sites: &Sites, mine: &[(u32, u32)], plane: u32, owner: &mut [u32]
 
 fn planes_around(sites: &Sites, owner: &[u32], site: usize, nearby: &mut Vec<u32>) {
     nearby.clear();
-    let around = sites.neighbours.of(site).iter().map(|&n| owner[n as usize]);
+    let around = sites.surfels.neighbours.of(site).iter().map(|&n| owner[n as usize]);
     nearby.extend(around.chain([owner[site]]).filter(|&o| o != NONE));
     nearby.sort_unstable();
     nearby.dedup();
@@ -162,7 +164,7 @@ fn nearest_plane(readings: &Readings, planes: &[Plane], nearby: &[u32], index: u
 fn largest_piece(sites: &Sites, mine: &[(u32, u32)]) -> Vec<(u32, u32)> {
     let mut count = vec![0u32; sites.len()];
     mine.iter().for_each(|&(_, s)| count[s as usize] += 1);
-    let (component, pieces) = components(&sites.neighbours, |s| count[s] > 0);
+    let (component, pieces) = components(&sites.surfels.neighbours, |s| count[s] > 0);
     let mut size = vec![0u32; pieces];
     for (s, &c) in component.iter().enumerate().filter(|(_, &c)| c != NONE) {
         size[c as usize] += count[s];

@@ -11,9 +11,7 @@ const MIN_SCENE_PLANE_M2: f64 = 0.02;
 /// How far from the first cell of a triple the other two may lie, metres.
 const SCENE_REACH_M: f64 = 0.25;
 /// Cells of the scene, at most.
-pub const MAX_SCENE_SITES: usize = 60_000;
-/// Sine of the angle by which a site's surroundings may lean from a plane that is given.
-const MAX_LEAN_SINE: f64 = 0.35;
+const MAX_SCENE_SITES: usize = 60_000;
 /// Noise below this many times the expected is as expected.
 const AS_EXPECTED: f64 = 1.5;
 /// Noise is taken to be at most this many times the expected.
@@ -47,20 +45,6 @@ impl ScenePlanes {
         }
     }
 
-    /// Planes that are known already, each with whether it is too large to be a thing's.
-    pub fn of_known(sites: Sites, known: &[(Plane, bool)]) -> Self {
-        let on_plane = |plane: &Plane| {
-            let is_on = |s: usize| {
-                plane.height_of(&sites.centers[s]).abs() <= sites.tolerance_m[s]
-                    && sites.normals[s].cross(&plane.normal).norm() <= MAX_LEAN_SINE
-            };
-            (0..sites.len()).filter(|&s| is_on(s)).map(|s| s as u32).collect::<Vec<u32>>()
-        };
-        let planes: Vec<SitePlane> =
-            known.iter().map(|(plane, _)| SitePlane { plane: *plane, sites: on_plane(plane) }).collect();
-        Self { sites, planes, is_large: known.iter().map(|k| k.1).collect() }
-    }
-
     fn find_once(readings: &Readings, indices: &[u32], settings: &PerceptionSettings) -> Self {
         let sites = Sites::new(readings, indices, settings.scene_cell_m, MAX_SCENE_SITES);
         let search = PlaneSearch {
@@ -75,14 +59,6 @@ impl ScenePlanes {
         let planes = search.run();
         let is_large = planes.iter().map(|p| longest_side(&sites, p) > settings.largest_thing_m).collect();
         Self { sites, planes, is_large }
-    }
-
-    /// Of each site, whether it lies on a plane too large to be a thing's.
-    pub fn room_sites(&self) -> Vec<bool> {
-        let mut marked = vec![false; self.sites.len()];
-        let large = self.planes.iter().zip(&self.is_large).filter(|(_, &l)| l);
-        large.flat_map(|(p, _)| &p.sites).for_each(|&s| marked[s as usize] = true);
-        marked
     }
 
     /// Least squares over a plane's readings within tolerance, not whole cells; the normal keeps its side.
@@ -116,8 +92,8 @@ impl ScenePlanes {
 
     /// Median height of the readings over and under a cell, without sign, in standard deviations.
     fn cell_scatter(&self, readings: &Readings, plane: &Plane, site: usize) -> f64 {
-        let (center, radius_m) = (self.sites.centers[site], 0.5 * self.sites.voxels.size_m);
-        let cells = self.sites.neighbours.of(site).iter().map(|&n| n as usize).chain([site]);
+        let (center, radius_m) = (self.sites.surfels.centers[site], 0.5 * self.sites.voxels.size_m);
+        let cells = self.sites.surfels.neighbours.of(site).iter().map(|&n| n as usize).chain([site]);
         let points = cells.flat_map(|s| self.sites.voxels.members_of(s)).map(|&i| readings.point(i));
         let beside = |p: &Vec3| (p - center - plane.normal * plane.normal.dot(&(p - center))).norm() <= radius_m;
         let mut scatter: Vec<f64> =
@@ -137,7 +113,7 @@ fn quantile(values: &mut [f64], share: f64) -> f64 {
 }
 
 fn longest_side(sites: &Sites, plane: &SitePlane) -> f64 {
-    let frame = PlaneFrame::new(&plane.plane, &sites.centers[plane.sites[0] as usize]);
-    let footprint: Vec<_> = plane.sites.iter().map(|&s| frame.to_plane(&sites.centers[s as usize])).collect();
+    let frame = PlaneFrame::new(&plane.plane, &sites.surfels.centers[plane.sites[0] as usize]);
+    let footprint: Vec<_> = plane.sites.iter().map(|&s| frame.to_plane(&sites.surfels.centers[s as usize])).collect();
     minimum_rectangle(&footprint).map_or(0.0, |r| r.size()[0].max(r.size()[1]))
 }

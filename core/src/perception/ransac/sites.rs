@@ -1,4 +1,5 @@
 use super::super::readings::Readings;
+use super::surfels::Surfels;
 use super::voxels::{Neighbours, Voxels};
 use crate::geometry::{Moments, Vec3};
 
@@ -11,14 +12,9 @@ const FLAT_VARIANCE_SHARE: f64 = 0.12;
 #[derive(Debug, Clone)]
 pub struct Sites {
     pub voxels: Voxels,
-    pub neighbours: Neighbours,
     pub moments: Vec<Moments>,
-    /// Mean of the cell's readings, metres.
-    pub centers: Vec<Vec3>,
-    /// Largest distance from a plane of a reading that belongs to it, metres.
-    pub tolerance_m: Vec<f64>,
-    /// Unit normal of the surroundings (the cell and those that touch it), zero where they are not flat; its sign means nothing.
-    pub normals: Vec<Vec3>,
+    /// Centres are means of the cells' readings, surroundings the cells that touch.
+    pub surfels: Surfels,
 }
 
 impl Sites {
@@ -30,28 +26,12 @@ impl Sites {
         let centers: Vec<Vec3> = moments.iter().map(Moments::mean).collect();
         let tolerance_m = centers.iter().map(|c| readings.tolerance_m(c)).collect();
         let normals = (0..voxels.len()).map(|c| surrounding_normal(&moments, &neighbours, c)).collect();
-        Self { voxels, neighbours, moments, centers, tolerance_m, normals }
-    }
-
-    /// Cells of few readings whose surfaces are known: each cell has the normal of its first reading.
-    pub fn of_known_normals(
-        readings: &Readings,
-        indices: &[u32],
-        size_m: f64,
-        max_cells: usize,
-        normal_of: impl Fn(u32) -> Vec3,
-    ) -> Self {
-        let voxels = Voxels::new(readings, indices, size_m, max_cells);
-        let neighbours = voxels.neighbours();
-        let moments: Vec<Moments> = (0..voxels.len()).map(|c| cell_moments(readings, voxels.members_of(c))).collect();
-        let centers: Vec<Vec3> = moments.iter().map(Moments::mean).collect();
-        let tolerance_m = centers.iter().map(|c| readings.tolerance_m(c)).collect();
-        let normals = (0..voxels.len()).map(|c| normal_of(voxels.members_of(c)[0])).collect();
-        Self { voxels, neighbours, moments, centers, tolerance_m, normals }
+        let surfels = Surfels { cell_m: voxels.size_m, centers, tolerance_m, normals, neighbours };
+        Self { voxels, moments, surfels }
     }
 
     pub fn len(&self) -> usize {
-        self.centers.len()
+        self.surfels.len()
     }
 
     pub fn count(&self, site: usize) -> f64 {

@@ -2,8 +2,10 @@
 
 use super::super::readings::Readings;
 use super::super::PerceptionSettings;
+use super::draws::SitePlane;
 use super::footing::{footing, seen_through, Footing};
 use super::scene_planes::ScenePlanes;
+use super::surfels::Surfels;
 use crate::error::{InputError, Result};
 use crate::geometry::{Plane, Vec3};
 
@@ -56,45 +58,66 @@ pub fn find_ground(
     settings: &PerceptionSettings,
 ) -> Result<Ground> {
     let scene = ScenePlanes::find(readings, indices, settings);
-    ground_among(&scene, readings, organized, settings)
+    let seen = SeenPlanes { surfels: &scene.sites.surfels, planes: &scene.planes, is_large: &scene.is_large };
+    let refit = |k: usize, plane: &Plane| scene.refit(readings, k, plane);
+    ground_among(&seen, refit, readings.viewpoint.as_ref(), organized, settings)
 }
 
-/// The same among planes that are known.
+/// Planes of a scene, and the surface patches around them.
+pub struct SeenPlanes<'a> {
+    pub surfels: &'a Surfels,
+    pub planes: &'a [SitePlane],
+    /// Whether each plane is too large to be a thing's.
+    pub is_large: &'a [bool],
+}
+
+impl SeenPlanes<'_> {
+    /// Of each patch, whether it lies on a plane too large to be a thing's.
+    fn in_room(&self) -> Vec<bool> {
+        let mut marked = vec![false; self.surfels.len()];
+        let large = self.planes.iter().zip(self.is_large).filter(|(_, &l)| l);
+        large.flat_map(|(p, _)| &p.sites).for_each(|&s| marked[s as usize] = true);
+        marked
+    }
+}
+
+/// The ground among planes that are known; `refit` makes the chosen one's plane precise.
 ///
 /// # Errors
 /// As of `find_ground`.
 pub fn ground_among(
-    scene: &ScenePlanes,
-    readings: &Readings,
+    seen: &SeenPlanes,
+    refit: impl Fn(usize, &Plane) -> Plane,
+    viewpoint: Option<&Vec3>,
     organized: bool,
     settings: &PerceptionSettings,
 ) -> Result<Ground> {
-    let candidates = footings(scene, settings, readings.viewpoint.as_ref());
-    let Some((chosen, footing)) = choose(&candidates, organized, settings, readings.viewpoint.is_some())? else {
+    let candidates = footings(seen, settings, viewpoint);
+    let Some((chosen, footing)) = choose(&candidates, organized, settings, viewpoint.is_some())? else {
         return Ok(no_plane(organized, settings));
     };
-    let plane = scene.refit(readings, chosen, &footing.plane);
-    refuse_from_below(readings, scene, chosen, &Footing { plane, ..footing.clone() })?;
+    let plane = refit(chosen, &footing.plane);
+    refuse_from_below(viewpoint, seen, chosen, &Footing { plane, ..footing.clone() })?;
     let is_ground = footing.free_cells as f64 >= MIN_FREE_SHARE * footing.ground_cells as f64;
-    let is_room = |&p: &usize| p != chosen && scene.is_large[p];
-    let room = (0..scene.planes.len()).filter(is_room).map(|p| scene.planes[p].plane).collect();
+    let is_room = |&p: &usize| p != chosen && seen.is_large[p];
+    let room = (0..seen.planes.len()).filter(is_room).map(|p| seen.planes[p].plane).collect();
     let support = is_ground.then_some(plane);
     Ok(Ground { up: plane.normal, support, chosen: Some(chosen), room, warnings: vec![] })
 }
 
 /// Every plane with every upward direction that is possible: towards the viewpoint, within reach of a given `up`, else both.
-fn footings(scene: &ScenePlanes, settings: &PerceptionSettings, viewpoint: Option<&Vec3>) -> Vec<(usize, Footing)> {
-    let room_sites = scene.room_sites();
+fn footings(seen: &SeenPlanes, settings: &PerceptionSettings, viewpoint: Option<&Vec3>) -> Vec<(usize, Footing)> {
+    let in_room = seen.in_room();
     let mut all = Vec::new();
-    for (index, found) in scene.planes.iter().enumerate().filter(|(_, f)| !f.sites.is_empty()) {
+    for (index, found) in seen.planes.iter().enumerate().filter(|(_, f)| !f.sites.is_empty()) {
         for plane in [found.plane, found.plane.flipped()] {
-            let seen = viewpoint.is_none_or(|v| plane.height_of(v) > 0.0);
+            let faces = viewpoint.is_none_or(|v| plane.height_of(v) > 0.0);
             let wanted = match settings.up {
                 Some(up) => plane.normal.dot(&up.normalize()) >= settings.up_tolerance_rad.cos(),
-                None => seen,
+                None => faces,
             };
             if wanted {
-                all.push((index, footing(&scene.sites, settings, plane, &found.sites, &room_sites)));
+                all.push((index, footing(seen.surfels, settings, plane, &found.sites, &in_room)));
             }
         }
     }
@@ -193,10 +216,10 @@ fn refuse_rivals(
 }
 
 /// Refuses a support that the sensor would have had to see through: more lies behind its readings than before them.
-fn refuse_from_below(readings: &Readings, scene: &ScenePlanes, chosen: usize, footing: &Footing) -> Result<()> {
-    let Some(viewpoint) = readings.viewpoint else { return Ok(()) };
-    let through = seen_through(&scene.sites, &scene.planes[chosen].sites, &footing.plane, &viewpoint);
-    let from_above = footing.plane.height_of(&viewpoint) > 0.0;
+fn refuse_from_below(viewpoint: Option<&Vec3>, seen: &SeenPlanes, chosen: usize, footing: &Footing) -> Result<()> {
+    let Some(viewpoint) = viewpoint else { return Ok(()) };
+    let through = seen_through(seen.surfels, &seen.planes[chosen].sites, &footing.plane, viewpoint);
+    let from_above = footing.plane.height_of(viewpoint) > 0.0;
     if from_above && (through < MIN_THROUGH || through < THROUGH_FACTOR * footing.above) {
         return Ok(());
     }

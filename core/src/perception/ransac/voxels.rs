@@ -134,6 +134,16 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
+    /// From one list for each cell, in order.
+    pub fn new(lists: impl Iterator<Item = impl Iterator<Item = u32>>) -> Self {
+        let (mut starts, mut ids) = (vec![0], Vec::new());
+        for list in lists {
+            ids.extend(list);
+            starts.push(ids.len() as u32);
+        }
+        Self { starts, ids }
+    }
+
     pub fn of(&self, cell: usize) -> &[u32] {
         &self.ids[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
