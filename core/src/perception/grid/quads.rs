@@ -22,7 +22,7 @@ impl Quad {
         // NaN compares false with everything.
         let seen = z.simd_gt(f32x4::splat(NEAREST_M)) & z.simd_lt(far) & x.abs().simd_lt(far) & y.abs().simd_lt(far);
         let q = f32x4::splat(1.0) / z;
-        Self { seen, u: x * q & seen, v: y * q & seen, q: q & seen }
+        Self { seen, u: (x * q) & seen, v: (y * q) & seen, q: q & seen }
     }
 
     /// From the pixels `start..end` of a row; those past the end are no readings.
