@@ -15,6 +15,7 @@ use crate::error::Result;
 use crate::perception::clock::Clock;
 use crate::perception::readings::Readings;
 use crate::perception::scene::{EdgeKind, Scene, Segments};
+use crate::perception::sides::tell_sides;
 use crate::perception::PerceptionSettings;
 
 /// From an organized cloud to its planar segments in a few milliseconds, on one thread.
@@ -45,8 +46,10 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
     clock.lap("groups");
     add_bases(&rays, &sorting, &mut pieces, &mut group);
     clock.lap("bases");
-    let segments = to_segments(&pieces, &group);
+    let mut segments = to_segments(&pieces, &group);
     clock.lap("segments");
+    tell_sides(&mut segments, &readings, cloud, ground.support.as_ref());
+    clock.lap("sides");
     Ok(Scene {
         up: ground.up,
         support: ground.support,
