@@ -15,6 +15,7 @@ const MIN_BRIDGE_PX: u32 = 3;
 const MIN_WALLS: usize = 2;
 /// One pixel in so many stands for the others in footprints of walls, and as many of a patch are looked at.
 const STRIDE_PX: usize = 3;
+const STRIDE_ROWS: usize = 2;
 const PATCH_SAMPLE: usize = 256;
 
 /// Adds the bases that groups enclose; the support and level pieces on it lose them.
@@ -96,7 +97,9 @@ impl Floor<'_> {
             return vec![];
         }
         let band_m = self.sorting.settings.base_band_m;
-        let standing = of_group.iter().flat_map(|p| p.runs.iter().flat_map(|r| (r.start..r.end).step_by(STRIDE_PX)));
+        let standing = of_group
+            .iter()
+            .flat_map(|p| p.runs.iter().step_by(STRIDE_ROWS).flat_map(|r| (r.start..r.end).step_by(STRIDE_PX)));
         let standing = standing.map(|i| self.sorting.readings.point(i)).filter(|p| self.support.height_of(p) > band_m);
         let standing: Vec<Point2> = standing.map(|p| self.frame.to_plane(&p)).collect();
         let Some(enclosure) = Enclosure::new(&standing, self.sorting.settings.base_margin_m) else { return vec![] };

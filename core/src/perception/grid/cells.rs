@@ -9,8 +9,10 @@ pub const CELL_PX: usize = QUAD;
 /// Readings of a full cell.
 pub const FULL: f64 = (CELL_PX * CELL_PX) as f64;
 
-/// Moments of all cells of the image, row by row; the last column and row may be cut.
+/// Moments of all cells of the image, row by row, with a frame of empty cells around, so that every cell of the image has
+/// eight neighbours; its last column and row may be cut.
 pub struct Cells {
+    /// With the frame.
     pub columns: usize,
     pub rows: usize,
     pub moments: Vec<RayMoments>,
@@ -18,14 +20,18 @@ pub struct Cells {
 
 impl Cells {
     pub fn new(rays: &Rays) -> Self {
-        let (columns, rows) = (rays.width.div_ceil(CELL_PX), rays.height.div_ceil(CELL_PX));
+        let (columns, rows) = (rays.width.div_ceil(CELL_PX) + 2, rays.height.div_ceil(CELL_PX) + 2);
         let mut moments = Vec::with_capacity(columns * rows);
+        moments.resize(columns, RayMoments::default());
         for y in (0..rays.height).step_by(CELL_PX) {
             let y_end = (y + CELL_PX).min(rays.height);
+            moments.push(RayMoments::default());
             for x in (0..rays.width).step_by(CELL_PX) {
                 moments.push(cell_moments(rays, x, y..y_end));
             }
+            moments.push(RayMoments::default());
         }
+        moments.resize(columns * rows, RayMoments::default());
         Self { columns, rows, moments }
     }
 
@@ -33,19 +39,19 @@ impl Cells {
         self.moments.len()
     }
 
-    /// The cells beside a cell: left, right, above, below.
-    pub fn beside(&self, cell: usize) -> impl Iterator<Item = usize> {
-        let (column, columns, last) = (cell % self.columns, self.columns, self.len());
-        let left = (column > 0).then(|| cell - 1);
-        let right = (column + 1 < columns).then_some(cell + 1);
-        let above = cell.checked_sub(columns);
-        let below = (cell + columns < last).then_some(cell + columns);
-        [left, right, above, below].into_iter().flatten()
+    /// The cells beside a cell of the image: left, right, above, below.
+    pub fn beside(&self, cell: usize) -> [usize; 4] {
+        [cell - 1, cell + 1, cell - self.columns, cell + self.columns]
+    }
+
+    /// The cells of the image, row by row.
+    pub fn of_image(&self) -> impl Iterator<Item = usize> + '_ {
+        (1..self.rows - 1).flat_map(|row| row * self.columns + 1..(row + 1) * self.columns - 1)
     }
 
     /// First column and the rows of a cell's pixels.
     pub fn place(&self, cell: usize, rays: &Rays) -> (usize, Range<usize>) {
-        let (x, y) = (cell % self.columns * CELL_PX, cell / self.columns * CELL_PX);
+        let (x, y) = ((cell % self.columns - 1) * CELL_PX, (cell / self.columns - 1) * CELL_PX);
         (x, y..(y + CELL_PX).min(rays.height))
     }
 }

@@ -54,24 +54,18 @@ struct Contact {
 
 fn contacts(regions: &Regions, cells: &Cells) -> Vec<Contact> {
     let mut met: Vec<(u16, u16, [u32; 2])> = Vec::new();
-    for cell in 0..cells.len() {
+    // Across one cell that is nobody's too: the cell on a crease fits neither plane.
+    let (right, down) = (1, cells.columns);
+    for cell in cells.of_image() {
         let a = regions.owner[cell];
         if a == NONE {
             continue;
         }
-        let (column, row) = (cell % cells.columns, cell / cells.columns);
-        // Across one cell that is nobody's too: the cell on a crease fits neither plane.
-        let steps = [(1, 0), (0, 1), (2, 0), (0, 2), (1, 1)];
-        for (dx, dy) in steps {
-            if column + dx >= cells.columns || row + dy >= cells.rows {
-                continue;
-            }
-            let other = cell + dx + dy * cells.columns;
-            let b = regions.owner[other];
+        let across = |step: usize| (regions.owner[cell + step] == NONE).then_some(cell + 2 * step);
+        let others = [Some(cell + right), Some(cell + down), Some(cell + down + right), across(right), across(down)];
+        for other in others.into_iter().flatten() {
+            let Some(&b) = regions.owner.get(other) else { continue };
             if b == NONE || b == a {
-                continue;
-            }
-            if dx + dy == 2 && dx != dy && regions.owner[(cell + other) / 2] != NONE {
                 continue;
             }
             let (x, y) = (cell as u32, other as u32);

@@ -35,8 +35,8 @@ impl Noise {
     /// Measured on the squares of the image that are smoothest.
     pub fn measure(cells: &Cells) -> Self {
         let mut found = Vec::new();
-        for row in (0..cells.rows.saturating_sub(SQUARE_CELLS - 1)).step_by(SQUARE_CELLS) {
-            for column in (0..cells.columns.saturating_sub(SQUARE_CELLS - 1)).step_by(SQUARE_CELLS) {
+        for row in (1..cells.rows.saturating_sub(SQUARE_CELLS)).step_by(SQUARE_CELLS) {
+            for column in (1..cells.columns.saturating_sub(SQUARE_CELLS)).step_by(SQUARE_CELLS) {
                 let square = sum_of_square(cells, column, row, SQUARE_CELLS);
                 let full = (SQUARE_CELLS * CELL_PX).pow(2) as f64;
                 if square.n >= MIN_FULL_SHARE * full {

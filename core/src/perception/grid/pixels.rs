@@ -24,7 +24,7 @@ pub fn refine(rays: &Rays, cells: &Cells, regions: &Regions, noise: &Noise) -> V
         regions,
         models,
         bias: f32x4::splat(noise.bias_variance(1.0) as f32),
-        owner: Padded::new(cells, &regions.owner),
+        owner: regions.owner.clone(),
         labels: vec![NONE; rays.points.len()],
     };
     let mut border = work.take_interiors();
@@ -64,7 +64,8 @@ struct Refinement<'a> {
     models: Vec<Model>,
     /// Variance by slow errors at q = 1.
     bias: f32x4,
-    owner: Padded,
+    /// As of the regions, and of the cells that were passed on since.
+    owner: Vec<u16>,
     labels: Vec<u16>,
 }
 
@@ -72,9 +73,9 @@ impl Refinement<'_> {
     /// Takes whole the cells amid their region; returns those at its border.
     fn take_interiors(&mut self) -> Vec<u32> {
         let mut border = Vec::new();
-        for cell in 0..self.cells.len() {
+        for cell in self.cells.of_image() {
             let own = self.regions.owner[cell];
-            if !self.owner.around(cell).iter().flatten().all(|&o| o == own) {
+            if !self.around(cell).iter().flatten().all(|&o| o == own) {
                 border.push(cell as u32);
             } else if own != NONE {
                 self.take_whole(cell, own);
@@ -125,10 +126,18 @@ impl Refinement<'_> {
         (self.regions.owner[cell] == NONE && taken[most] >= MIN_PASSED).then(|| candidates[most])
     }
 
+    fn around(&self, cell: usize) -> [[u16; 3]; 3] {
+        let corner = cell - self.cells.columns - 1;
+        std::array::from_fn(|y| {
+            let line = &self.owner[corner + y * self.cells.columns..][..3];
+            [line[0], line[1], line[2]]
+        })
+    }
+
     /// The regions around a cell.
     fn candidates(&self, cell: usize) -> ([u16; MAX_NEAR], usize) {
         let (mut found, mut count) = ([NONE; MAX_NEAR], 0);
-        for &owner in self.owner.around(cell).iter().flatten() {
+        for &owner in self.around(cell).iter().flatten() {
             if owner != NONE && !found[..count].contains(&owner) {
                 found[count] = owner;
                 count += 1;
@@ -141,49 +150,14 @@ impl Refinement<'_> {
     fn beyond(&mut self, passed: &[(u32, u16)], touched: &mut [bool]) -> Vec<u32> {
         let mut next = Vec::new();
         for &(cell, region) in passed {
-            self.owner.set(cell as usize, region);
+            self.owner[cell as usize] = region;
             for c in self.cells.beside(cell as usize) {
-                if self.regions.owner[c] == NONE && !touched[c] {
+                if self.regions.owner[c] == NONE && !touched[c] && self.cells.moments[c].n > 0.0 {
                     touched[c] = true;
                     next.push(c as u32);
                 }
             }
         }
         next
-    }
-}
-
-/// The cells' owners with a frame of nobody's around, so that every cell has eight neighbours.
-struct Padded {
-    owner: Vec<u16>,
-    columns: usize,
-}
-
-impl Padded {
-    fn new(cells: &Cells, owner: &[u16]) -> Self {
-        let columns = cells.columns;
-        let mut padded = vec![NONE; (columns + 2) * (cells.rows + 2)];
-        for (row, line) in owner.chunks_exact(columns).enumerate() {
-            let start = (row + 1) * (columns + 2) + 1;
-            padded[start..start + columns].copy_from_slice(line);
-        }
-        Self { owner: padded, columns }
-    }
-
-    fn corner(&self, cell: usize) -> usize {
-        cell / self.columns * (self.columns + 2) + cell % self.columns
-    }
-
-    fn around(&self, cell: usize) -> [[u16; 3]; 3] {
-        let corner = self.corner(cell);
-        std::array::from_fn(|y| {
-            let start = corner + y * (self.columns + 2);
-            [self.owner[start], self.owner[start + 1], self.owner[start + 2]]
-        })
-    }
-
-    fn set(&mut self, cell: usize, owner: u16) {
-        let place = self.corner(cell) + self.columns + 3;
-        self.owner[place] = owner;
     }
 }

@@ -20,6 +20,35 @@ const RETRIES: usize = 3;
 /// Readings of a region, at least.
 const MIN_REGION_READINGS: f64 = 48.0;
 
+/// Moments of the squares of two by two cells that begin in odd columns and rows: larger squares add them.
+struct Pairs {
+    columns: usize,
+    moments: Vec<RayMoments>,
+}
+
+impl Pairs {
+    fn new(cells: &Cells) -> Self {
+        let columns = cells.columns / 2;
+        let square = |k: usize| sum_of_square(cells, 2 * (k % columns) + 1, 2 * (k / columns) + 1, 2);
+        let whole = |size: usize| (size - 1) / 2;
+        let rows = whole(cells.rows);
+        let is_whole = |k: &usize| k % columns < whole(cells.columns);
+        let moments =
+            (0..columns * rows).map(|k| if is_whole(&k) { square(k) } else { RayMoments::default() }).collect();
+        Self { columns, moments }
+    }
+
+    /// Of the square of `side` cells, an even number, that begins in an odd column and row.
+    fn sum(&self, column: usize, row: usize, side: usize) -> RayMoments {
+        let mut sum = RayMoments::default();
+        for y in row / 2..(row + side) / 2 {
+            let start = y * self.columns + column / 2;
+            self.moments[start..start + side / 2].iter().for_each(|m| sum.add(m));
+        }
+        sum
+    }
+}
+
 /// A flat piece of the image.
 #[derive(Debug, Clone)]
 pub struct Region {
@@ -38,8 +67,9 @@ impl Regions {
     /// Regions grown from the flattest squares, large squares first.
     pub fn grow(cells: &Cells, noise: &Noise) -> Self {
         let mut regions = Self { list: Vec::new(), owner: vec![NONE; cells.len()] };
+        let pairs = Pairs::new(cells);
         for side in SEED_CELLS {
-            for seed in regions.seeds(cells, noise, side) {
+            for seed in regions.seeds(cells, &pairs, noise, side) {
                 if regions.list.len() + 1 < usize::from(NONE) && regions.is_free(cells, seed, side) {
                     regions.grow_from(cells, noise, seed, side);
                 }
@@ -49,17 +79,18 @@ impl Regions {
     }
 
     /// First cells of free, flat squares, flattest first.
-    fn seeds(&self, cells: &Cells, noise: &Noise, side: usize) -> Vec<usize> {
+    fn seeds(&self, cells: &Cells, pairs: &Pairs, noise: &Noise, side: usize) -> Vec<usize> {
         let least = SEED_FULL_SHARE * (side * CELL_PX).pow(2) as f64;
         let mut found: Vec<(f64, usize)> = Vec::new();
         let step = side.div_ceil(3);
-        for row in (0..cells.rows.saturating_sub(side - 1)).step_by(step) {
-            for column in (0..cells.columns.saturating_sub(side - 1)).step_by(step) {
+        for row in (1..cells.rows.saturating_sub(side)).step_by(step) {
+            for column in (1..cells.columns.saturating_sub(side)).step_by(step) {
                 let first = row * cells.columns + column;
                 if self.owner[first] != NONE || !self.is_free(cells, first, side) {
                     continue;
                 }
-                let sum = sum_of_square(cells, column, row, side);
+                let sum =
+                    if step == 2 { pairs.sum(column, row, side) } else { sum_of_square(cells, column, row, side) };
                 if sum.n < least {
                     continue;
                 }
@@ -90,29 +121,52 @@ impl Regions {
         let Some((plane, _)) = region.moments.fit() else { return self.release(&region.cells) };
         region.plane = plane;
         let mut variance = noise.variance_on(&region.plane);
-        let (mut tried, mut fitted_at, mut retries) = (0, region.moments.n, RETRIES);
-        while tried < region.cells.len() {
+        // Cells beside the region that were looked at but did not fit: the plane may come to them later.
+        let mut refused: Vec<u32> = Vec::new();
+        let (mut looked, mut fitted_at, mut retries) = (0, region.moments.n, RETRIES);
+        loop {
             let layer_end = region.cells.len();
-            for k in tried..layer_end {
+            for k in looked..layer_end {
                 for next in cells.beside(region.cells[k] as usize) {
-                    if self.owner[next] == NONE && fits(&cells.moments[next], &region.plane, variance, noise) {
+                    if self.owner[next] != NONE {
+                        continue;
+                    }
+                    if fits(&cells.moments[next], &region.plane, variance, noise) {
                         self.owner[next] = id;
                         region.cells.push(next as u32);
                         region.moments.add(&cells.moments[next]);
+                    } else {
+                        refused.push(next as u32);
                     }
                 }
             }
-            tried = layer_end;
-            let is_last = tried == region.cells.len();
+            looked = layer_end;
+            let is_last = looked == region.cells.len();
             if region.moments.n > fitted_at * REFIT_GROWTH || (is_last && region.moments.n > fitted_at) {
                 if let Some((plane, _)) = region.moments.fit() {
                     region.plane = plane;
                     variance = noise.variance_on(&plane);
                 }
                 fitted_at = region.moments.n;
-                if is_last && retries > 0 {
-                    retries -= 1;
-                    tried = 0;
+            } else if is_last {
+                break;
+            }
+            if is_last {
+                if retries == 0 {
+                    break;
+                }
+                retries -= 1;
+                for next in std::mem::take(&mut refused) {
+                    if self.owner[next as usize] != NONE {
+                        continue;
+                    }
+                    if fits(&cells.moments[next as usize], &region.plane, variance, noise) {
+                        self.owner[next as usize] = id;
+                        region.cells.push(next);
+                        region.moments.add(&cells.moments[next as usize]);
+                    } else {
+                        refused.push(next);
+                    }
                 }
             }
         }
