@@ -17,6 +17,11 @@ impl Default for Moments {
 }
 
 impl Moments {
+    /// From the sums over points: of 1, of p, and of xx, xy, xz, yy, yz, zz.
+    pub fn from_sums(weight: f64, sum: Vec3, outer: [f64; 6]) -> Self {
+        Self { weight, sum, outer }
+    }
+
     pub fn add_point(&mut self, p: &Vec3) {
         self.weight += 1.0;
         self.sum += p;
@@ -37,6 +42,20 @@ impl Moments {
     /// Metres; NaN for an empty set.
     pub fn mean(&self) -> Vec3 {
         self.sum / self.weight
+    }
+
+    /// xx, xy, xz, yy, yz, zz about the mean, square metres; NaN for an empty set.
+    pub fn covariance(&self) -> [f64; 6] {
+        let (m, [xx, xy, xz, yy, yz, zz]) = (self.mean(), self.outer.map(|s| s / self.weight));
+        [xx - m.x * m.x, xy - m.x * m.y, xz - m.x * m.z, yy - m.y * m.y, yz - m.y * m.z, zz - m.z * m.z]
+    }
+
+    /// Sum of the points' squared `normal . p - distance`; the normal need not have unit length.
+    pub fn squares_about(&self, normal: &Vec3, distance: f64) -> f64 {
+        let (n, [xx, xy, xz, yy, yz, zz]) = (normal, self.outer);
+        let of_products =
+            n.x * (n.x * xx + 2.0 * (n.y * xy + n.z * xz)) + n.y * (n.y * yy + 2.0 * n.z * yz) + n.z * n.z * zz;
+        (of_products - 2.0 * distance * n.dot(&self.sum) + distance * distance * self.weight).max(0.0)
     }
 
     /// Variances along the principal directions, square metres, smallest first, with unit directions.

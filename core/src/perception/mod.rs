@@ -10,6 +10,7 @@ mod scene;
 mod segment;
 mod settings;
 mod sides;
+mod voxel;
 
 pub use perceive::perceive;
 pub use scene::{EdgeKind, Scene, Segments, BACKGROUND};

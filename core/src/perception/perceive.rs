@@ -1,5 +1,6 @@
 use super::grid::perceive_on_grid;
 use super::ransac::perceive_by_ransac;
+use super::voxel::perceive_on_voxels;
 use super::{PerceptionSettings, PlaneFinder, Scene};
 use crate::cloud::CloudView;
 use crate::error::Result;
@@ -12,7 +13,8 @@ use crate::error::Result;
 /// `InputError` where the cloud has no finite reading, several directions could be up, or the support is seen from below.
 pub fn perceive(cloud: &CloudView, settings: &PerceptionSettings) -> Result<Scene> {
     match settings.planes {
+        PlaneFinder::Ransac => perceive_by_ransac(cloud, settings),
         PlaneFinder::Grid if cloud.is_organized() => perceive_on_grid(cloud, settings),
-        _ => perceive_by_ransac(cloud, settings),
+        PlaneFinder::Grid => perceive_on_voxels(cloud, settings),
     }
 }

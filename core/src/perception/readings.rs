@@ -24,6 +24,19 @@ impl<'a> Readings<'a> {
         Self { points: cloud.points, viewpoint: cloud.viewpoint, settings, noise_scale: 1.0 }
     }
 
+    /// Other readings, of which as much is known.
+    pub fn of_other_points<'b>(&self, cloud: &CloudView<'b>) -> Readings<'b>
+    where
+        'a: 'b,
+    {
+        Readings {
+            points: cloud.points,
+            viewpoint: cloud.viewpoint,
+            settings: self.settings,
+            noise_scale: self.noise_scale,
+        }
+    }
+
     /// Indices of the readings, in input order.
     ///
     /// # Errors
@@ -31,14 +44,24 @@ impl<'a> Readings<'a> {
     pub fn finite_indices(&self) -> Result<Vec<u32>> {
         let indices: Vec<u32> = (0..self.points.len() as u32).filter(|&i| self.is_reading(i)).collect();
         if indices.is_empty() {
-            let problem = format!("no finite readings among {} points", self.points.len());
-            return Err(InputError::new(problem).mend("a point needs three finite coordinates in metres"));
+            return Err(Self::none_among(self.points.len()));
         }
         Ok(indices)
     }
 
     pub fn is_reading(&self, index: u32) -> bool {
-        self.points[index as usize].iter().all(|c| c.abs() < FARTHEST_COORDINATE_M)
+        Self::is_finite(&self.points[index as usize])
+    }
+
+    #[inline]
+    pub fn is_finite(p: &[f32; 3]) -> bool {
+        p.iter().all(|c| c.abs() < FARTHEST_COORDINATE_M)
+    }
+
+    /// The error for a cloud without a reading.
+    pub fn none_among(points: usize) -> InputError {
+        let problem = format!("no finite readings among {points} points");
+        InputError::new(problem).mend("a point needs three finite coordinates in metres")
     }
 
     pub fn point(&self, index: u32) -> Vec3 {

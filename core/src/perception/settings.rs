@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 pub enum PlaneFinder {
     /// The paper's chain: support, Euclidean clusters, sequential RANSAC.
     Ransac,
-    /// Ours: planes grow on the image grid.
+    /// Ours: planes grow on the image grid, or on voxels where the cloud has none.
     Grid,
 }
 

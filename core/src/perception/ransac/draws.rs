@@ -133,7 +133,7 @@ impl PlaneSearch<'_> {
     }
 
     /// Least squares over the largest piece of the inliers, again and again.
-    fn refine(&self, start: &Plane, free: &[bool]) -> Option<SitePlane> {
+    pub fn refine(&self, start: &Plane, free: &[bool]) -> Option<SitePlane> {
         let mut plane = *start;
         let mut result = None;
         for _ in 0..REFITS {

@@ -16,4 +16,6 @@ pub mod support;
 pub mod surfels;
 pub mod voxels;
 
+pub use base::SupportBand;
 pub use chain::perceive_by_ransac;
+pub use crease::fold;

@@ -47,16 +47,29 @@ impl ScenePlanes {
 
     fn find_once(readings: &Readings, indices: &[u32], settings: &PerceptionSettings) -> Self {
         let sites = Sites::new(readings, indices, settings.scene_cell_m, MAX_SCENE_SITES);
-        let search = PlaneSearch {
-            sites: &sites,
-            settings,
-            reach_m: SCENE_REACH_M,
-            worth: vec![1.0; sites.len()],
-            min_worth: (MIN_SCENE_PLANE_M2 / sites.voxels.size_m.powi(2)).max(6.0),
-            max_planes: MAX_SCENE_PLANES,
-            seed: 1,
-        };
-        let planes = search.run();
+        let planes = search(&sites, settings).run();
+        Self::new(sites, planes, settings)
+    }
+
+    /// Of planes that are known already, largest first: each with its largest piece.
+    pub fn of_planes(readings: &Readings, indices: &[u32], known: &[Plane], settings: &PerceptionSettings) -> Self {
+        let sites = Sites::new(readings, indices, settings.scene_cell_m, MAX_SCENE_SITES);
+        let search = search(&sites, settings);
+        let mut free = vec![true; sites.len()];
+        let mut planes = Vec::new();
+        for found in known {
+            if planes.len() == MAX_SCENE_PLANES {
+                break;
+            }
+            if let Some(plane) = search.refine(found, &free) {
+                plane.sites.iter().for_each(|&s| free[s as usize] = false);
+                planes.push(plane);
+            }
+        }
+        Self::new(sites, planes, settings)
+    }
+
+    fn new(sites: Sites, planes: Vec<SitePlane>, settings: &PerceptionSettings) -> Self {
         let is_large = planes.iter().map(|p| longest_side(&sites, p) > settings.largest_thing_m).collect();
         Self { sites, planes, is_large }
     }
@@ -99,6 +112,18 @@ impl ScenePlanes {
         let mut scatter: Vec<f64> =
             points.filter(beside).map(|p| plane.height_of(&p).abs() / readings.sigma_m(&p)).collect();
         quantile(&mut scatter, 0.5)
+    }
+}
+
+fn search<'a>(sites: &'a Sites, settings: &'a PerceptionSettings) -> PlaneSearch<'a> {
+    PlaneSearch {
+        sites,
+        settings,
+        reach_m: SCENE_REACH_M,
+        worth: vec![1.0; sites.len()],
+        min_worth: (MIN_SCENE_PLANE_M2 / sites.voxels.size_m.powi(2)).max(6.0),
+        max_planes: MAX_SCENE_PLANES,
+        seed: 1,
     }
 }
 

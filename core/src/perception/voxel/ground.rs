@@ -1,0 +1,73 @@
+use super::super::ransac::scene_planes::ScenePlanes;
+use super::super::ransac::support::{ground_among, Ground, SeenPlanes};
+use super::super::readings::Readings;
+use super::super::PerceptionSettings;
+use super::surfaces::{Surface, Surfaces};
+use super::voxels::Voxels;
+use crate::error::Result;
+use crate::geometry::{Plane, Vec3};
+
+/// Surfaces that may be the ground, at most: the largest.
+const MAX_CANDIDATES: usize = 40;
+/// Readings of a sample that tells the typical range.
+const RANGE_SAMPLE: usize = 512;
+/// Noise below this many times the expected is as expected.
+const AS_EXPECTED: f64 = 1.5;
+/// A surface of so many readings leans no more than this from the plane that it belongs to: cosines of 3 and 8 degrees.
+const MANY: f64 = 2000.0;
+const LEAN_COSINES: [f64; 2] = [0.9986, 0.99];
+
+/// The middles of all voxels as 32-bit readings in the input's frame, by the voxels' order.
+pub fn middles(voxels: &Voxels) -> Vec<[f32; 3]> {
+    voxels.centers.iter().map(|c| (c + voxels.low).map(|x| x as f32).into()).collect()
+}
+
+/// Takes the readings to be as noisy as the voxels were found to be.
+pub fn expect_noise(readings: &mut Readings, sigma_m: f64) {
+    let sample = readings.points.iter().step_by(1 + readings.points.len() / RANGE_SAMPLE).copied();
+    let mut expected: Vec<f64> = sample.map(|p| readings.sigma_m(&Vec3::from(p.map(f64::from)))).collect();
+    let middle = expected.len() / 2;
+    let (_, typical, _) = expected.select_nth_unstable_by(middle, f64::total_cmp);
+    let scale = sigma_m / *typical;
+    if scale > AS_EXPECTED {
+        readings.scale_noise(scale);
+    }
+}
+
+/// Which way is up, and on which of the surfaces' planes the things stand.
+///
+/// # Errors
+/// `InputError` where several directions are plausible, or the support is seen from below.
+pub fn find_ground(
+    voxels: &Voxels,
+    readings: &Readings,
+    surfaces: &Surfaces,
+    settings: &PerceptionSettings,
+) -> Result<Ground> {
+    let mut known: Vec<&Surface> = surfaces.list.iter().collect();
+    known.sort_by_key(|s| std::cmp::Reverse(s.voxels.len()));
+    let planes: Vec<_> = known.iter().take(MAX_CANDIDATES).map(|s| voxels.plane_of_input(&s.plane)).collect();
+    let indices: Vec<u32> = (0..voxels.len() as u32).collect();
+    let scene = ScenePlanes::of_planes(readings, &indices, &planes, settings);
+    let seen = SeenPlanes { surfels: &scene.sites.surfels, planes: &scene.planes, is_large: &scene.is_large };
+    let refit = |k: usize, plane: &Plane| scene.refit(readings, k, plane);
+    let mut ground = ground_among(&seen, refit, readings.viewpoint.as_ref(), false, settings)?;
+    if let Some(support) = ground.support {
+        let inside = voxels.plane_inside(&support);
+        let largest = surfaces.list.iter().find(|s| lies_in(s, &inside, settings.tolerance_floor_m));
+        if let Some(surface) = largest {
+            let fitted = voxels.plane_of_input(&surface.plane);
+            let plane = if fitted.normal.dot(&support.normal) < 0.0 { fitted.flipped() } else { fitted };
+            (ground.up, ground.support) = (plane.normal, Some(plane));
+        }
+    }
+    Ok(ground)
+}
+
+/// Whether a surface is a piece of the plane (told inside).
+pub fn lies_in(surface: &Surface, plane: &Plane, tolerance_m: f64) -> bool {
+    let least = LEAN_COSINES[usize::from(surface.moments.weight < MANY)];
+    let squares = surface.moments.squares_about(&plane.normal, plane.distance);
+    let scatter_m = (squares / surface.moments.weight - surface.variance).max(0.0).sqrt();
+    surface.plane.normal.dot(&plane.normal).abs() > least && scatter_m <= tolerance_m
+}
