@@ -47,9 +47,9 @@ pub fn perceive_on_voxels(cloud: &CloudView, settings: &PerceptionSettings) -> R
     let mut readings = Readings::new(&of_middles, settings);
     expect_noise(&mut readings, spacing.sigma_m);
     split_folds(&mut surfaces, &voxels, &readings, settings);
-    let ground = find_ground(&voxels, &readings, &surfaces, settings)?;
-    let mut roles = roles(&surfaces, &voxels, &readings, &ground, settings);
-    join_support(&mut surfaces, &mut roles);
+    let mut ground = find_ground(&voxels, &readings, &surfaces, settings)?;
+    let tolerance_m = join_support(&mut surfaces, &voxels, &readings, &mut ground, settings);
+    let mut roles = roles(&surfaces, &voxels, &readings, &ground, tolerance_m, settings);
     clock.lap("support");
     let mut groups = groups(&surfaces, &voxels, &roles, &ground.up, settings);
     if let Some(support) = &ground.support {

@@ -13,9 +13,10 @@ const MAX_CANDIDATES: usize = 40;
 const RANGE_SAMPLE: usize = 512;
 /// Noise below this many times the expected is as expected.
 const AS_EXPECTED: f64 = 1.5;
-/// A surface of so many readings leans no more than this from the plane that it belongs to: cosines of 3 and 8 degrees.
-const MANY: f64 = 2000.0;
-const LEAN_COSINES: [f64; 2] = [0.9986, 0.99];
+/// Most of a surface's voxels, where it is a piece of a plane ...
+const MOST_VOXELS: f64 = 0.7;
+/// ... from which it leans no more than 10 degrees: cosine.
+const LEAN_COSINE: f64 = 0.985;
 
 /// The middles of all voxels as 32-bit readings in the input's frame, by the voxels' order.
 pub fn middles(voxels: &Voxels) -> Vec<[f32; 3]> {
@@ -51,23 +52,12 @@ pub fn find_ground(
     let scene = ScenePlanes::of_planes(readings, &indices, &planes, settings);
     let seen = SeenPlanes { surfels: &scene.sites.surfels, planes: &scene.planes, is_large: &scene.is_large };
     let refit = |k: usize, plane: &Plane| scene.refit(readings, k, plane);
-    let mut ground = ground_among(&seen, refit, readings.viewpoint.as_ref(), false, settings)?;
-    if let Some(support) = ground.support {
-        let inside = voxels.plane_inside(&support);
-        let largest = surfaces.list.iter().find(|s| lies_in(s, &inside, settings.tolerance_floor_m));
-        if let Some(surface) = largest {
-            let fitted = voxels.plane_of_input(&surface.plane);
-            let plane = if fitted.normal.dot(&support.normal) < 0.0 { fitted.flipped() } else { fitted };
-            (ground.up, ground.support) = (plane.normal, Some(plane));
-        }
-    }
-    Ok(ground)
+    ground_among(&seen, refit, readings.viewpoint.as_ref(), false, settings)
 }
 
 /// Whether a surface is a piece of the plane (told inside).
-pub fn lies_in(surface: &Surface, plane: &Plane, tolerance_m: f64) -> bool {
-    let least = LEAN_COSINES[usize::from(surface.moments.weight < MANY)];
-    let squares = surface.moments.squares_about(&plane.normal, plane.distance);
-    let scatter_m = (squares / surface.moments.weight - surface.variance).max(0.0).sqrt();
-    surface.plane.normal.dot(&plane.normal).abs() > least && scatter_m <= tolerance_m
+pub fn lies_in(surface: &Surface, voxels: &Voxels, plane: &Plane, tolerance_m: f64) -> bool {
+    let is_near = |v: &&u32| plane.height_of(&voxels.centers[**v as usize]).abs() <= tolerance_m;
+    surface.plane.normal.dot(&plane.normal).abs() > LEAN_COSINE
+        && surface.voxels.iter().filter(is_near).count() as f64 >= MOST_VOXELS * surface.voxels.len() as f64
 }
