@@ -1,10 +1,10 @@
 //! Bases lie on the support, within its tolerance: what the walls of a group enclose is a piece of its own.
 
-use super::piece::Piece;
+use super::piece::{keep, Piece};
 use super::rays::Rays;
 use super::runs::{Run, Runs};
 use super::things::Sorting;
-use crate::geometry::{Plane, PlaneFrame, Point2};
+use crate::geometry::{Plane, PlaneFrame, Point2, Vec3};
 use crate::perception::ransac::enclosure::Enclosure;
 use crate::perception::ransac::parting::Walls;
 use crate::perception::scene::BACKGROUND;
@@ -17,9 +17,15 @@ const MIN_WALLS: usize = 2;
 const STRIDE_PX: usize = 3;
 const STRIDE_ROWS: usize = 2;
 const PATCH_SAMPLE: usize = 256;
+/// A part that no wall was seen around fills this share of its hull, and that of its rectangle, and is this wide.
+const MIN_FILL: f64 = 0.5;
+const MIN_BASE_M: f64 = 0.05;
+/// Its group comes this near to it, seen from above.
+const MAX_GAP_M: f64 = 0.05;
 
-/// Adds the bases that groups enclose; the support and level pieces on it lose them.
-pub fn add_bases(rays: &Rays, sorting: &Sorting, pieces: &mut Vec<Piece>, group: &mut Vec<i32>) {
+/// Adds the bases that groups enclose; the support and level pieces on it lose them. `pitch` is between the rays of
+/// neighbouring pixels.
+pub fn add_bases(rays: &Rays, pitch: f64, sorting: &Sorting, pieces: &mut Vec<Piece>, group: &mut Vec<i32>) {
     let (Some(plane), Some(support)) = (sorting.ground.support, sorting.support) else { return };
     let mut patches = parts(rays, &pieces[support], support, sorting.settings.min_segment_points);
     let is_low = |p: usize| {
@@ -41,6 +47,13 @@ pub fn add_bases(rays: &Rays, sorting: &Sorting, pieces: &mut Vec<Piece>, group:
             bases.extend(Piece::from_runs(rays, runs).map(|base| (base, g)));
         }
     }
+    for patch in patches.into_iter().filter(|p| p.of == support) {
+        let Some(base) = Piece::from_runs(rays, patch.runs.clone()) else { continue };
+        if let Some(g) = floor.owner_of_hole(rays, &base, pitch, pieces, group) {
+            lost[support].extend(patch.runs);
+            bases.push((base, g));
+        }
+    }
     let mut emptied = vec![false; pieces.len()];
     for (p, lost) in lost.iter().enumerate().filter(|(_, l)| !l.is_empty()) {
         match pieces[p].without(rays, lost) {
@@ -48,10 +61,7 @@ pub fn add_bases(rays: &Rays, sorting: &Sorting, pieces: &mut Vec<Piece>, group:
             None => emptied[p] = true,
         }
     }
-    let mut kept = emptied.iter().map(|e| !e);
-    group.retain(|_| kept.next().unwrap_or(true));
-    let mut kept = emptied.iter().map(|e| !e);
-    pieces.retain(|_| kept.next().unwrap_or(true));
+    keep(pieces, group, |p| !emptied[p]);
     for (base, g) in bases {
         pieces.push(base);
         group.push(g);
@@ -125,6 +135,28 @@ impl Floor<'_> {
             .collect()
     }
 
+    /// The group that a part of the support belongs to which no wall was seen around: a box seen from straight above
+    /// shows its walls as lines without readings. Such a part fills its rectangle and lies amid the image.
+    fn owner_of_hole(&self, rays: &Rays, part: &Piece, pitch: f64, pieces: &[Piece], group: &[i32]) -> Option<i32> {
+        let (width, height) = (rays.width as u32, rays.height as u32);
+        let at_border = |r: &Run| {
+            let row = r.start / width;
+            row == 0 || row + 1 == height || r.start.is_multiple_of(width) || r.end.is_multiple_of(width)
+        };
+        let hull: Vec<Point2> = part.hull.iter().map(|c| self.frame.to_plane(c)).collect();
+        let fills = polygon_area(&hull) > MIN_FILL * part.rectangle.area()
+            && part.area_m2(pitch) > MIN_FILL * polygon_area(&hull);
+        let narrow = part.rectangle.size().iter().any(|&side| side < MIN_BASE_M);
+        if part.runs.iter().any(at_border) || !fills || narrow {
+            return None;
+        }
+        let near = pieces.iter().zip(group).filter(|(_, &g)| g != BACKGROUND).filter_map(|(piece, &g)| {
+            let gap_m = |c: &Vec3| gap_m(&hull, &self.frame.to_plane(c));
+            piece.hull.iter().map(gap_m).min_by(f64::total_cmp).map(|gap_m| (gap_m, g))
+        });
+        near.filter(|n| n.0 < MAX_GAP_M).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))).map(|n| n.1)
+    }
+
     fn is_wall(&self, piece: &Piece) -> bool {
         piece.plane.normal.dot(&self.support.normal).abs() < self.sorting.settings.wall_tilt_rad.sin()
     }
@@ -134,4 +166,21 @@ impl Floor<'_> {
         let pixels = runs.iter().flat_map(|r| r.start..r.end).step_by(1 + points / PATCH_SAMPLE);
         pixels.map(|i| self.frame.to_plane(&self.sorting.readings.point(i))).collect()
     }
+}
+
+/// By the shoelace formula, whichever way round.
+fn polygon_area(hull: &[Point2]) -> f64 {
+    let next = |k: usize| hull[(k + 1) % hull.len()];
+    (0..hull.len()).map(|k| hull[k][0] * next(k)[1] - hull[k][1] * next(k)[0]).sum::<f64>().abs() / 2.0
+}
+
+/// From a point to a polygon's nearest edge.
+fn gap_m(hull: &[Point2], p: &Point2) -> f64 {
+    let distance = |k: usize| {
+        let (a, b) = (hull[k], hull[(k + 1) % hull.len()]);
+        let (x, y) = (b[0] - a[0], b[1] - a[1]);
+        let t = (((p[0] - a[0]) * x + (p[1] - a[1]) * y) / (x * x + y * y).max(1e-12)).clamp(0.0, 1.0);
+        (p[0] - a[0] - t * x).hypot(p[1] - a[1] - t * y)
+    };
+    (0..hull.len()).map(distance).fold(f64::INFINITY, f64::min)
 }

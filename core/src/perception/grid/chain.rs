@@ -1,3 +1,4 @@
+use super::background::join_background;
 use super::bases::add_bases;
 use super::cells::Cells;
 use super::ground::{find_ground, Seen};
@@ -8,6 +9,7 @@ use super::piece::Piece;
 use super::pixels::refine;
 use super::rays::Rays;
 use super::regions::{Regions, NONE};
+use super::roundness::round_facets;
 use super::runs::Runs;
 use super::things::Sorting;
 use crate::cloud::CloudView;
@@ -35,16 +37,17 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
     let labels = refine(&rays, &cells, &regions, &noise);
     clock.lap("borders");
     let runs = Runs::new(&labels, rays.width);
-    let (mut pieces, piece_of_label) = pieces(&rays, &runs, &regions, settings);
+    let (mut pieces, piece_of_label) = pieces(&rays, &cells, &runs, &regions, settings);
     clock.lap("outlines");
     let readings = Readings::new(cloud, settings);
     let seen = Seen { labels: &labels, piece_of_label: &piece_of_label, width: rays.width, pieces: &pieces };
     let (ground, support) = find_ground(&readings, &seen, &noise, settings)?;
     clock.lap("support");
-    let sorting = Sorting { readings: &readings, ground: &ground, settings, support };
+    let mut sorting = Sorting { readings: &readings, ground: &ground, settings, support };
     let mut group = sorting.groups(&pieces, &runs, &piece_of_label);
+    join_background(&rays, &readings, &mut pieces, &mut group, &mut sorting.support);
     clock.lap("groups");
-    add_bases(&rays, &sorting, &mut pieces, &mut group);
+    add_bases(&rays, noise.pitch, &sorting, &mut pieces, &mut group);
     clock.lap("bases");
     let mut segments = to_segments(&pieces, &group);
     clock.lap("segments");
@@ -60,13 +63,20 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
     })
 }
 
-/// Pieces of enough readings, and the piece of each label.
-fn pieces(rays: &Rays, runs: &Runs, regions: &Regions, settings: &PerceptionSettings) -> (Vec<Piece>, Vec<u16>) {
+/// Pieces of enough readings that are no facets of round things, and the piece of each label.
+fn pieces(
+    rays: &Rays,
+    cells: &Cells,
+    runs: &Runs,
+    regions: &Regions,
+    settings: &PerceptionSettings,
+) -> (Vec<Piece>, Vec<u16>) {
+    let is_round = round_facets(cells, regions);
     let mut pieces = Vec::new();
     let mut piece_of_label = vec![NONE; regions.list.len()];
     for (label, runs) in runs_by_label(runs, regions.list.len()).into_iter().enumerate() {
         let points: usize = runs.iter().map(|r| r.len() as usize).sum();
-        if points < settings.min_segment_points {
+        if is_round[label] || points < settings.min_segment_points {
             continue;
         }
         if let Some(piece) = Piece::new(rays, runs, &regions.list[label].moments) {

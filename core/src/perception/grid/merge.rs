@@ -52,6 +52,11 @@ struct Contact {
     pairs: Vec<[u32; 2]>,
 }
 
+/// Pairs of regions that touch.
+pub fn touching_regions(regions: &Regions, cells: &Cells) -> Vec<(usize, usize)> {
+    contacts(regions, cells).iter().map(|c| (usize::from(c.a), usize::from(c.b))).collect()
+}
+
 fn contacts(regions: &Regions, cells: &Cells) -> Vec<Contact> {
     let mut met: Vec<(u16, u16, [u32; 2])> = Vec::new();
     // Across one cell that is nobody's too: the cell on a crease fits neither plane.

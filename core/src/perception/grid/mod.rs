@@ -1,5 +1,6 @@
 //! The fast front end for clouds with an image grid: planes grow from moments of small cells, in inverse depth.
 
+mod background;
 mod bases;
 mod camera;
 mod cells;
@@ -15,6 +16,7 @@ mod quads;
 mod ray_moments;
 mod rays;
 mod regions;
+mod roundness;
 mod runs;
 mod things;
 mod touching;

@@ -44,6 +44,15 @@ impl Piece {
         })
     }
 
+    /// Several pieces as one: the plane is fitted to all their readings.
+    pub fn joined(rays: &Rays, parts: &[&Self]) -> Option<Self> {
+        let mut moments = RayMoments::default();
+        parts.iter().for_each(|p| moments.add(&p.moments));
+        let mut runs: Vec<Run> = parts.iter().flat_map(|p| p.runs.iter().copied()).collect();
+        runs.sort_unstable_by_key(|r| r.start);
+        Self::new(rays, runs, &moments)
+    }
+
     /// Of pixels whose moments are not known.
     pub fn from_runs(rays: &Rays, runs: Vec<Run>) -> Option<Self> {
         let mut moments = RayMoments::default();
@@ -63,6 +72,16 @@ impl Piece {
         Self::new(rays, left, &self.moments)
     }
 
+    /// Of the surface that its pixels cover; `pitch` lies between the rays of neighbouring pixels.
+    ///
+    /// On a plane at distance d from the camera, `du dv` of rays at depth z covers `z^3 / d du dv`.
+    pub fn area_m2(&self, pitch: f64) -> f64 {
+        let Some((plane, _)) = self.moments.fit() else { return 0.0 };
+        let inverse_distance = Vec3::new(plane.a, plane.b, plane.c).norm();
+        let depth_m = self.moments.n / self.moments.q;
+        self.points as f64 * pitch * pitch * depth_m.powi(3) * inverse_distance
+    }
+
     /// About so many of its pixels, spread evenly over its rows.
     pub fn sample(&self, count: usize) -> impl Iterator<Item = u32> + '_ {
         self.runs.iter().step_by(1 + self.runs.len() / count).map(|r| (r.start + r.end) / 2)
@@ -70,7 +89,7 @@ impl Piece {
 }
 
 /// `1 = a x + b y + c z` on the plane; `None` where it passes through the camera.
-fn in_space(p: &RayPlane) -> Option<Plane> {
+pub fn in_space(p: &RayPlane) -> Option<Plane> {
     let n = Vec3::new(p.a, p.b, p.c);
     let length = n.norm();
     (length > 1e-9 && length.is_finite()).then(|| Plane { normal: -n / length, distance: -1.0 / length })
@@ -96,4 +115,12 @@ fn hull_on_plane(rays: &Rays, runs: &[Run], plane: &RayPlane) -> Vec<Vec3> {
         (q > 0.0).then(|| Vec3::new(u, v, 1.0) / q)
     };
     convex_hull_of_sorted(&ends).iter().filter_map(meet).collect()
+}
+
+/// Drops pieces and their groups.
+pub fn keep(pieces: &mut Vec<Piece>, group: &mut Vec<i32>, stays: impl Fn(usize) -> bool) {
+    let mut p = 0..;
+    pieces.retain(|_| p.next().is_none_or(&stays));
+    let mut p = 0..;
+    group.retain(|_| p.next().is_none_or(&stays));
 }
