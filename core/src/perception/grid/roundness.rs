@@ -6,7 +6,7 @@ use crate::geometry::{PlaneFrame, Vec3};
 use nalgebra::{Matrix2, SMatrix, SVector};
 
 /// A surface is round where its radius of curvature is below this, metres. Bent flaps and bulging sides are flatter.
-const MAX_RADIUS_M: f64 = 0.33;
+const MAX_RADIUS_M: f64 = 0.2;
 /// By so many standard errors must the curvature exceed that; a neighbour's by fewer.
 const CERTAINTY: f64 = 2.0;
 const NEIGHBOUR_CERTAINTY: f64 = 1.0;
