@@ -7,9 +7,9 @@ use crate::perception::readings::Readings;
 use crate::perception::scene::BACKGROUND;
 
 /// Parts of one plane lean less than this from one another.
-const SAME_COSINE: f64 = 0.9976;
+const SAME_COSINE: f64 = 0.993;
 /// Each part's middle lies within so many tolerances of the other's plane.
-const TOLERANCES: f64 = 1.5;
+const TOLERANCES: f64 = 2.0;
 
 /// Joins the background's pieces that lie in one plane into the largest; `support` is the piece that things stand on.
 pub fn join_background(

@@ -6,19 +6,19 @@ use crate::geometry::{PlaneFrame, Vec3};
 use nalgebra::{Matrix2, SMatrix, SVector};
 
 /// A surface is round where its radius of curvature is below this, metres. Bent flaps and bulging sides are flatter.
-const MAX_RADIUS_M: f64 = 0.2;
+const MAX_RADIUS_M: f64 = 0.33;
 /// By so many standard errors must the curvature exceed that; a neighbour's by fewer.
 const CERTAINTY: f64 = 2.0;
 const NEIGHBOUR_CERTAINTY: f64 = 1.0;
 /// Facets of one round thing lean less than this from each other.
-const MAX_TURN_RAD: f64 = 1.05;
+const MAX_TURN_RAD: f64 = 0.87;
 /// Cells that show curvature, at least, and how full one must be.
 const MIN_CELLS: usize = 9;
 const MIN_CELL_READINGS: f64 = 8.0;
 /// Larger regions are not looked at: no thing's round side looks flat over so many cells.
 const MAX_CELLS: usize = 2000;
 
-/// Which regions are facets of round things: bent as a paraboloid of small radius (eq. 46), and beside a facet that bends
+/// Which regions are facets of round things: bent as a paraboloid of small radius, and beside a facet that bends
 /// the same way. Two panels that were taken for one across a fold bend as well, but alone.
 pub fn round_facets(cells: &Cells, regions: &Regions) -> Vec<bool> {
     let bends: Vec<Option<Bend>> = regions.list.iter().map(|r| bend(cells, r)).collect();
