@@ -1,6 +1,6 @@
 """How many of the true panels does perception find? The paper says "almost 100 %".
 
-    python benchmarks/planes_recall.py SET... [--list-missed] [--json OUT]
+    python benchmarks/planes_recall.py SET... [--planes NAME] [--list-missed] [--json OUT]
 
 SET is a folder of NAME.pcd, NAME.truth.json, NAME.labels.npz. A panel counts from 500 readings on; it is found where
 one segment's readings and its own have an intersection over union of at least 0.5. Precision: of the segments that lie
@@ -91,7 +91,7 @@ def judge(name: str, truth: Truth, labels: NDArray[np.int64], seen: Perception, 
     )
 
 
-def frames(folder: Path) -> Iterator[Frame]:
+def frames(folder: Path, planes: str | None) -> Iterator[Frame]:
     """Perceives every frame of a set, in the order of their names."""
     for path in sorted(folder.glob("*.truth.json")):
         name = path.name.removesuffix(".truth.json")
@@ -100,7 +100,7 @@ def frames(folder: Path) -> Iterator[Frame]:
         labels = read_truth_labels(folder / f"{name}.labels.npz").astype(np.int64)
         start = time.perf_counter()
         try:
-            seen = perceive(cloud)
+            seen = perceive(cloud, planes=planes)
         except ValueError as error:
             print(f"{name}: {error}", file=sys.stderr)
             continue
@@ -144,10 +144,11 @@ def main() -> None:
     """Reads the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("sets", nargs="+", type=Path)
+    parser.add_argument("--planes", help="the front end; the default's where not said")
     parser.add_argument("--list-missed", action="store_true")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
-    judged = [frame for folder in options.sets for frame in frames(folder)]
+    judged = [frame for folder in options.sets for frame in frames(folder, options.planes)]
     if not judged:
         parser.error("no NAME.truth.json in the folders given")
     report(judged, options.list_missed)

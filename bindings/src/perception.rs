@@ -118,6 +118,7 @@ fn perceive(
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("DEFAULT_PLANES", PerceptionSettings::default().planes.name())?;
     m.add("PLANES", PyTuple::new(m.py(), PlaneFinder::ALL.map(PlaneFinder::name))?)?;
     m.add_class::<Perception>()?;
     m.add_function(wrap_pyfunction!(perceive, m)?)

@@ -40,6 +40,7 @@ def read_depth_png(
 # --- perception ---
 
 PLANES: tuple[str, ...]
+DEFAULT_PLANES: str
 """The front ends that find planes, as the setting `planes` names them; the default is the core's."""
 
 _EdgeKind = Literal["edge", "crease", "occluded", "border"]

@@ -57,7 +57,7 @@ def infer(
         raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
     if weights is not None and len(templates) != 1:
         raise ValueError("weights fit one template; name that one alone")
-    models = [load_object_model(template, weights)[1] for template in templates]
+    models = [load_object_model(template, weights, planes)[1] for template in templates]
 
     start = time.perf_counter()
     points = cloud.points if roi is None else within(cloud.points, roi)

@@ -41,4 +41,4 @@ def problems_of(frame: SeenFrame) -> list[LearningProblem]:
 def _seen(category: str, index: int, boxes: int) -> SeenFrame:
     frame = make_frame(category, SEED, index, boxes=boxes)
     cloud = Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=(0.0, 0.0, 0.0))
-    return SeenFrame(frame.truth.name, perceive(cloud), frame.truth, frame.labels)
+    return SeenFrame(frame.truth.name, perceive(cloud, planes="ransac"), frame.truth, frame.labels)

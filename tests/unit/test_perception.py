@@ -37,7 +37,7 @@ def tray(rng: np.random.Generator, *, floor: bool) -> np.ndarray:
 
 @pytest.mark.parametrize("floor", [True, False])
 def test_open_box_has_four_walls_and_a_base(floor: bool) -> None:
-    seen = perceive(unorganized(tray(np.random.default_rng(1), floor=floor)))
+    seen = perceive(unorganized(tray(np.random.default_rng(1), floor=floor)), planes="ransac")
     assert seen.up @ [0, 0, 1] > np.cos(np.radians(0.5))
     assert (seen.support_plane is not None) == floor
     assert len(seen) == 5
@@ -52,7 +52,7 @@ def test_open_box_has_four_walls_and_a_base(floor: bool) -> None:
 
 def test_labels_counts_and_rectangles_agree() -> None:
     points = tray(np.random.default_rng(2), floor=True)
-    seen = perceive(unorganized(points))
+    seen = perceive(unorganized(points), planes="ransac")
     assert seen.labels.shape == (len(points),)
     counts = np.bincount(seen.labels[seen.labels >= 0], minlength=len(seen))
     assert np.array_equal(counts, seen.point_counts)

@@ -83,7 +83,7 @@ pub struct PerceptionSettings {
 impl Default for PerceptionSettings {
     fn default() -> Self {
         Self {
-            planes: PlaneFinder::Ransac,
+            planes: PlaneFinder::Grid,
             up: None,
             up_tolerance_rad: 15f64.to_radians(),
             sigma_floor_m: 0.0006,

@@ -127,7 +127,7 @@ PlanesOption = Annotated[
         "--planes",
         callback=_known_planes,
         metavar="NAME",
-        help="How planes are found. ransac: as of 2011 (default); grid: grown on the image grid, or on voxels.",
+        help="How planes are found. grid: grown on the image grid, or on voxels (default); ransac: as of 2011.",
         rich_help_panel=MODEL,
     ),
 ]

@@ -39,37 +39,37 @@ def load_template(name_or_path: str | Path) -> _core.Template:
         raise ValueError(f"{path}: {error}") from None
 
 
-def load_weights(name_or_path: str | Path) -> LearnedWeights:
+def load_weights(name_or_path: str | Path, planes: str | None = None) -> LearnedWeights:
     """The shipped weights of a template by its name, or a weights file.
 
-    Raises ValueError naming the file and the key that does not fit, OSError where the file cannot be read.
+    Shipped weights are learnt for each front end, one of `_core.PLANES`; `planes` None takes the default's. Raises ValueError naming the file and the key that does not fit, OSError where the file cannot be read.
     """
-    path = _weights_path(name_or_path)
+    path = _weights_path(name_or_path, planes)
     try:
         return msgspec.json.decode(_read_text(path), type=LearnedWeights)
     except msgspec.DecodeError as error:
         raise ValueError(f"{path}: {error}; boxwright train writes weights that fit") from None
 
 
-def _weights_path(name_or_path: str | Path) -> Path:
+def _weights_path(name_or_path: str | Path, planes: str | None) -> Path:
     if str(name_or_path) in TEMPLATE_NAMES:
-        return _HERE / "weights" / f"{name_or_path}.json"
+        return _HERE / "weights" / (planes or _core.DEFAULT_PLANES) / f"{name_or_path}.json"
     return Path(name_or_path)
 
 
 def load_object_model(
-    template: str | Path, weights: str | Path | None = None, **search: float
+    template: str | Path, weights: str | Path | None = None, planes: str | None = None, **search: float
 ) -> tuple[_core.Template, _core.ObjectModel]:
     """A template with its weights, ready to infer with; `search` overrides settings of the staged search.
 
-    Without `weights` the shipped ones are taken, which only shipped templates have. Raises as those above.
+    Without `weights` the shipped ones for the front end `planes` are taken, which only shipped templates have. Raises as those above.
     """
     loaded = load_template(template)
     if weights is None and loaded.name not in TEMPLATE_NAMES:
         raise ValueError(
             f"{template}: no weights are shipped for {loaded.name!r}; train some and name them with --weights"
         )
-    path = _weights_path(loaded.name if weights is None else weights)
+    path = _weights_path(loaded.name if weights is None else weights, planes)
     try:
         return loaded, _core.ObjectModel(loaded, _read_text(path), **search)
     except ValueError as error:

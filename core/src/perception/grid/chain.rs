@@ -28,6 +28,11 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
     let mut clock = Clock::start();
     let rays = Rays::new(cloud);
     let cells = Cells::new(&rays);
+    let readings = Readings::new(cloud, settings);
+    if cells.moments.iter().all(|m| m.n == 0.0) {
+        // Says what is wrong where no reading is finite.
+        readings.finite_indices()?;
+    }
     let noise = Noise::measure(&cells);
     clock.lap("cells");
     let mut regions = Regions::grow(&cells, &noise);
@@ -39,7 +44,6 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
     let runs = Runs::new(&labels, rays.width);
     let (mut pieces, piece_of_label) = pieces(&rays, &cells, &runs, &regions, settings);
     clock.lap("outlines");
-    let readings = Readings::new(cloud, settings);
     let seen = Seen { labels: &labels, piece_of_label: &piece_of_label, width: rays.width, pieces: &pieces };
     let (ground, support) = find_ground(&readings, &seen, &noise, settings)?;
     clock.lap("support");

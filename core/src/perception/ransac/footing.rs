@@ -15,6 +15,9 @@ const LARGEST_HEAP: f64 = 2.0;
 const MIN_THING_SITES: usize = 6;
 /// Of the cells around a thing's footprint, the share that must show the plane.
 const MIN_RING_SHARE: f64 = 0.2;
+/// Of a cell and its eight neighbours, those that must be ground amid ground: at its edge six are, and middles of cells
+/// that do not lie in a lattice leave some empty.
+const MIN_AMID: usize = 7;
 /// Surfaces within this of upright: sine of the angle.
 const UPRIGHT_SINE: f64 = 0.2;
 
@@ -145,7 +148,8 @@ pub fn seen_through(surfels: &Surfels, on: &[u32], plane: &Plane, viewpoint: &Ve
     let cell_m = surfels.cell_m;
     let frame = PlaneFrame::new(plane, &surfels.centers[on[0] as usize]);
     let ground: CellSet = on.iter().map(|&s| to_cell(&frame.to_plane(&surfels.centers[s as usize]), cell_m)).collect();
-    let amid = |[x, y]: Cell2| (0..9).all(|step| ground.contains(&[x + step % 3 - 1, y + step / 3 - 1]));
+    let around = |[x, y]: Cell2| (0..9).filter(|step| ground.contains(&[x + step % 3 - 1, y + step / 3 - 1])).count();
+    let amid = |cell: Cell2| around(cell) >= MIN_AMID;
     let eye_m = plane.height_of(viewpoint);
     let crosses = |s: usize| {
         let height_m = plane.height_of(&surfels.centers[s]);
