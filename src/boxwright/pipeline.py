@@ -22,6 +22,9 @@ METHODS = ("paper",)
 
 DEFAULT_METHOD = "paper"
 
+PLANES_OF_METHOD = {"paper": "ransac"}
+"""The front end of each method where the user names none, one of `_core.PLANES`: the paper's is part of its method."""
+
 
 @dataclass(frozen=True)
 class Inferred:
@@ -49,7 +52,7 @@ def infer(
     `templates` compete for the segments: shipped names or paths of `.toml` files; `weights` names one file for a single
     template (shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
     known. `roi` leaves out all points beyond the bounds. `planes` names the front end that finds the planes, one of
-    `_core.PLANES`. All coordinates are in the cloud's frame, metres.
+    `_core.PLANES`; None takes the method's own (`PLANES_OF_METHOD`). All coordinates are in the cloud's frame, metres.
 
     Raises ValueError where a value does not fit or the cloud cannot be used as it is (units, frame, up), with the mend.
     """
@@ -57,6 +60,7 @@ def infer(
         raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
     if weights is not None and len(templates) != 1:
         raise ValueError("weights fit one template; name that one alone")
+    planes = planes or PLANES_OF_METHOD[method]
     models = [load_object_model(template, weights, planes)[1] for template in templates]
 
     start = time.perf_counter()

@@ -17,7 +17,8 @@ COMMANDS = ("demo", "infer", "explain", "figure", "evaluate", "synth", "train")
 
 
 @pytest.mark.skipif(
-    not (Path(models.__file__).parent / "weights/grid/carton.json").is_file(), reason="no learned weights are shipped yet"
+    not (Path(models.__file__).parent / "weights/grid/carton.json").is_file(),
+    reason="no learned weights are shipped yet",
 )
 def test_the_demo_writes_everything_and_says_where(tmp_path: Path) -> None:
     answer = boxwright("demo", "-o", "here", folder=tmp_path)

@@ -27,7 +27,8 @@ SHELF = "tote_apc/shelf_bin_frame00.pcd"
 SHELF_DEPTH = "tote_apc/frame-000000.depth.png"
 
 shipped_weights = pytest.mark.skipif(
-    not (Path(models.__file__).parent / "weights/grid/carton.json").is_file(), reason="no learned weights are shipped yet"
+    not (Path(models.__file__).parent / "weights/grid/carton.json").is_file(),
+    reason="no learned weights are shipped yet",
 )
 
 

@@ -47,9 +47,10 @@ def train(
     from boxwright.learning import train as learn
     from boxwright.models import load_template
     from boxwright.parallel import processors
+    from boxwright.pipeline import DEFAULT_METHOD, PLANES_OF_METHOD
 
     loaded = load_template(template)
-    frames, refused = _see(folders, category, planes, jobs)
+    frames, refused = _see(folders, category, planes or PLANES_OF_METHOD[DEFAULT_METHOD], jobs)
     command = shlex.join(["boxwright", *sys.argv[1:]])
     learned = learn(
         loaded,
