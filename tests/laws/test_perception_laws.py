@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from boxwright import perception
 from boxwright.io.clouds import read_cloud
 from boxwright.io.truth import load_truth
-from boxwright import perception
 from boxwright.perception import Perception
 from boxwright.types import Cloud
 

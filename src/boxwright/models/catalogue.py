@@ -42,7 +42,9 @@ def load_template(name_or_path: str | Path) -> _core.Template:
 def load_weights(name_or_path: str | Path, planes: str | None = None) -> LearnedWeights:
     """The shipped weights of a template by its name, or a weights file.
 
-    Shipped weights are learnt for each front end, one of `_core.PLANES`; `planes` None takes the default's. Raises ValueError naming the file and the key that does not fit, OSError where the file cannot be read.
+    Shipped weights are learnt for each front end, one of `_core.PLANES`; `planes` None takes the default's.
+
+    Raises ValueError naming the file and the key that does not fit, OSError where the file cannot be read.
     """
     path = _weights_path(name_or_path, planes)
     try:
@@ -62,7 +64,8 @@ def load_object_model(
 ) -> tuple[_core.Template, _core.ObjectModel]:
     """A template with its weights, ready to infer with; `search` overrides settings of the staged search.
 
-    Without `weights` the shipped ones for the front end `planes` are taken, which only shipped templates have. Raises as those above.
+    Without `weights` the shipped ones for the front end `planes` are taken, which only shipped templates have. Raises
+    as those above.
     """
     loaded = load_template(template)
     if weights is None and loaded.name not in TEMPLATE_NAMES:
