@@ -6,6 +6,7 @@ mod cloud;
 mod convert;
 mod model;
 mod perception;
+mod problem;
 mod sensor;
 
 #[pymodule]
@@ -13,6 +14,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     cloud::register(m)?;
     perception::register(m)?;
     model::register(m)?;
+    problem::register(m)?;
     sensor::register(m)?;
     Ok(())
 }

@@ -1,10 +1,10 @@
 use boxwright_core::cloud::CloudView;
 use boxwright_core::geometry::Vec3;
-use boxwright_core::inference::{best_exhaustive, rank_staged, SearchPlans, StagedSettings};
-use boxwright_core::model::{self, Assignment, FeatureTables, SegmentSet};
+use boxwright_core::inference::SearchSettings;
+use boxwright_core::model;
 use boxwright_core::perception::PerceptionSettings;
 use boxwright_core::{inference, pipeline};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -15,7 +15,7 @@ use crate::perception::Perception;
 /// An object's template, read from TOML text.
 #[pyclass(frozen, module = "boxwright._core")]
 pub struct Template {
-    template: model::Template,
+    pub template: model::Template,
 }
 
 #[pymethods]
@@ -81,123 +81,7 @@ impl ObjectModel {
     fn new(template: &Template, weights_json: &str, search: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let weights = model::Weights::from_json(weights_json, &template.template).map_err(to_python)?;
         let settings = search_settings(search)?;
-        Ok(Self { model: inference::ObjectModel::new(template.template.clone(), weights, &settings) })
-    }
-}
-
-/// The segments of one group under one template: features, scores, search.
-#[pyclass(frozen, module = "boxwright._core")]
-pub struct Problem {
-    template: model::Template,
-    set: SegmentSet,
-    tables: FeatureTables,
-}
-
-#[pymethods]
-impl Problem {
-    /// One problem for each group of the perception, in the groups' order.
-    #[staticmethod]
-    fn by_group(perception: &Perception, template: &Template) -> Vec<Self> {
-        SegmentSet::by_group(&perception.scene).into_iter().map(|set| Self::of(&template.template, set)).collect()
-    }
-
-    /// Numbers of the problem's segments among the perception's.
-    #[getter]
-    fn scene_segments<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        PyArray1::from_iter(py, self.set.scene_index.iter().map(|&s| s as i64))
-    }
-
-    fn __len__(&self) -> usize {
-        self.set.len()
-    }
-
-    /// Feature vectors (K, terms) of assignments (K, parts) of the problem's segments to parts, -1 for empty.
-    fn features<'py>(
-        &self,
-        py: Python<'py>,
-        assignments: PyReadonlyArray2<'_, i64>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows = self.rows(&assignments)?;
-        let values = rows.iter().flat_map(|row| self.tables.feature_vector(&self.template, row));
-        PyArray1::from_iter(py, values).reshape([rows.len(), self.template.term_count()])
-    }
-
-    /// The best assignments (K, parts) by the staged search under `weights` (terms,), their scores (K,), and the gap.
-    #[pyo3(signature = (weights, importance, most, **search))]
-    #[allow(clippy::type_complexity)]
-    fn rank<'py>(
-        &self,
-        py: Python<'py>,
-        weights: PyReadonlyArray1<'_, f64>,
-        importance: PyReadonlyArray1<'_, f64>,
-        most: usize,
-        search: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<(Bound<'py, PyArray2<i64>>, Bound<'py, PyArray1<f64>>, f64)> {
-        let settings = search_settings(search)?;
-        let weights = self.weights(&weights, &importance)?;
-        let mut ranking = py.detach(|| {
-            let plans = SearchPlans::new(&self.template, &weights, settings.max_exponent);
-            let plan = plans.for_size(self.set.len(), settings.max_candidates);
-            let free = vec![false; self.set.len()];
-            rank_staged(&self.template, &weights, &self.tables, plan, &free, most, &settings)
-        });
-        ranking.candidates.truncate(most);
-        let scores = PyArray1::from_iter(py, ranking.candidates.iter().map(|c| c.score));
-        let rows: Vec<Assignment> = ranking.candidates.into_iter().map(|c| c.assignment).collect();
-        Ok((self.array(py, &rows)?, scores, ranking.gap))
-    }
-
-    /// The best of all assignments (parts,), its score, and how many were tried: small problems only.
-    #[allow(clippy::type_complexity)]
-    fn exhaustive<'py>(
-        &self,
-        py: Python<'py>,
-        weights: PyReadonlyArray1<'_, f64>,
-    ) -> PyResult<(Bound<'py, PyArray1<i64>>, f64, u64)> {
-        let weights = self.weights(&weights, &weights)?;
-        let (best, visited) = py.detach(|| best_exhaustive(&self.template, &weights, &self.tables));
-        let row = PyArray1::from_iter(py, best.assignment.iter().map(|s| s.map_or(-1, |s| s as i64)));
-        Ok((row, best.score, visited))
-    }
-}
-
-impl Problem {
-    fn of(template: &model::Template, set: SegmentSet) -> Self {
-        Self { tables: FeatureTables::new(template, &set), template: template.clone(), set }
-    }
-
-    fn rows(&self, assignments: &PyReadonlyArray2<'_, i64>) -> PyResult<Vec<Assignment>> {
-        let (n, parts) = (self.set.len(), self.template.parts.len());
-        let segment = |&s: &i64| match usize::try_from(s) {
-            Ok(s) if s < n => Ok(Some(s)),
-            Err(_) if s == -1 => Ok(None),
-            _ => Err(PyValueError::new_err(format!("an assignment names segment {s}; there are {n}, and -1 is none"))),
-        };
-        let array = assignments.as_array();
-        if array.ncols() != parts {
-            let problem = format!("assignments have {} columns; the template has {parts} parts", array.ncols());
-            return Err(PyValueError::new_err(problem));
-        }
-        array.outer_iter().map(|row| row.iter().map(segment).collect()).collect()
-    }
-
-    fn array<'py>(&self, py: Python<'py>, rows: &[Assignment]) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        let flat = rows.iter().flatten().map(|s| s.map_or(-1, |s| s as i64));
-        PyArray1::from_iter(py, flat).reshape([rows.len(), self.template.parts.len()])
-    }
-
-    fn weights(
-        &self,
-        values: &PyReadonlyArray1<'_, f64>,
-        importance: &PyReadonlyArray1<'_, f64>,
-    ) -> PyResult<model::Weights> {
-        let terms = self.template.term_count();
-        let (values, importance) = (values.as_array().to_vec(), importance.as_array().to_vec());
-        if values.len() != terms || importance.len() != terms {
-            let problem = format!("{} weights and {} importances for {terms} terms", values.len(), importance.len());
-            return Err(PyValueError::new_err(problem));
-        }
-        Ok(model::Weights { values, importance, accept_score: 0.0 })
+        Ok(Self { model: inference::ObjectModel::new(template.template.clone(), weights, &settings.staged) })
     }
 }
 
@@ -238,8 +122,8 @@ impl Answer {
     }
 }
 
-fn search_settings(overrides: Option<&Bound<'_, PyDict>>) -> PyResult<StagedSettings> {
-    StagedSettings::with_overrides(named("search", overrides)?).map_err(to_python)
+pub fn search_settings(overrides: Option<&Bound<'_, PyDict>>) -> PyResult<SearchSettings> {
+    SearchSettings::with_overrides(named("search", overrides)?).map_err(to_python)
 }
 
 fn model_list(models: &[PyRef<'_, ObjectModel>]) -> Vec<inference::ObjectModel> {
@@ -283,13 +167,13 @@ fn understand(
     let search = search_settings(search)?;
     let models = model_list(&models);
     let answer = py.detach(|| pipeline::understand(&perception.scene, perception.point_count, &models, &search));
+    let answer = answer.map_err(to_python)?;
     Ok(Answer { answer })
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<Template>()?;
     m.add_class::<ObjectModel>()?;
-    m.add_class::<Problem>()?;
     m.add_class::<Answer>()?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
     m.add_function(wrap_pyfunction!(understand, m)?)

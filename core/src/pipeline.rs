@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
 use crate::error::Result;
-use crate::inference::{find_objects, FoundObject, ObjectModel, StagedSettings};
+use crate::inference::{find_objects, FoundObject, ObjectModel, SearchSettings};
 use crate::model::{Assignment, Body, SegmentSet};
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -27,24 +27,32 @@ pub struct Answer {
 /// From a cloud to its objects: perception, inference, bodies.
 ///
 /// # Errors
-/// What `perceive` refuses.
+/// What `perceive` and `understand` refuse.
 pub fn infer(
     cloud: &CloudView,
     perception: &PerceptionSettings,
     models: &[ObjectModel],
-    search: &StagedSettings,
+    search: &SearchSettings,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
-    let answer = understand(&scene, cloud.points.len(), models, search);
+    let answer = understand(&scene, cloud.points.len(), models, search)?;
     Ok((scene, answer))
 }
 
 /// Understands a scene of `point_count` points: every group of segments against every object model.
-pub fn understand(scene: &Scene, point_count: usize, models: &[ObjectModel], settings: &StagedSettings) -> Answer {
+///
+/// # Errors
+/// What the exact search refuses: values that are no finite numbers.
+pub fn understand(
+    scene: &Scene,
+    point_count: usize,
+    models: &[ObjectModel],
+    settings: &SearchSettings,
+) -> Result<Answer> {
     let start = Instant::now();
     let mut found: Vec<(SegmentSet, FoundObject)> = Vec::new();
     for set in SegmentSet::by_group(scene) {
-        let objects = find_objects(models, &set, settings);
+        let objects = find_objects(models, &set, settings)?;
         found.extend(objects.into_iter().map(|object| (set.clone(), object)));
     }
     // A stable sort: groups keep their order among equal scores.
@@ -69,7 +77,7 @@ pub fn understand(scene: &Scene, point_count: usize, models: &[ObjectModel], set
         answer.add(built, scene, set, &assignment);
     }
     answer.stage_seconds = vec![("inference", inference_seconds), ("body", start.elapsed().as_secs_f64())];
-    answer
+    Ok(answer)
 }
 
 impl Answer {

@@ -3,7 +3,7 @@
 mod common;
 
 use boxwright_core::geometry::Rectangle;
-use boxwright_core::inference::{ObjectModel, StagedSettings};
+use boxwright_core::inference::{ObjectModel, SearchSettings};
 use boxwright_core::model::{Template, Weights};
 use boxwright_core::pipeline::{understand, Answer};
 use common::{rectangle, scene, unit_weights};
@@ -92,10 +92,10 @@ min_parts = 2
 fn infer(template: &str, rectangles: Vec<Rectangle>) -> Answer {
     let template = Template::from_toml(template).unwrap();
     let weights = Weights::from_json(&unit_weights(&template, 0.5), &template).unwrap();
-    let settings = StagedSettings::default();
-    let model = ObjectModel::new(template, weights, &settings);
+    let settings = SearchSettings::default();
+    let model = ObjectModel::new(template, weights, &settings.staged);
     let count = 10 * rectangles.len();
-    understand(&scene(rectangles), count, &[model], &settings)
+    understand(&scene(rectangles), count, &[model], &settings).unwrap()
 }
 
 #[test]

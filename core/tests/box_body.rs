@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use boxwright_core::body::ObjectAnswer;
 use boxwright_core::geometry::{Rectangle, Vec3};
-use boxwright_core::inference::{ObjectModel, StagedSettings};
+use boxwright_core::inference::{ObjectModel, SearchSettings};
 use boxwright_core::model::{Template, Weights};
 use boxwright_core::pipeline::understand;
 use common::{carton_rectangles, scene, unit_weights};
@@ -16,10 +16,10 @@ const CARTON: &str = include_str!("../../src/boxwright/models/templates/carton.t
 fn infer(rectangles: Vec<Rectangle>) -> ObjectAnswer {
     let template = Template::from_toml(CARTON).unwrap();
     let weights = Weights::from_json(&unit_weights(&template, 0.5), &template).unwrap();
-    let settings = StagedSettings::default();
-    let model = ObjectModel::new(template, weights, &settings);
+    let settings = SearchSettings::default();
+    let model = ObjectModel::new(template, weights, &settings.staged);
     let count = 10 * rectangles.len();
-    let mut answer = understand(&scene(rectangles), count, &[model], &settings);
+    let mut answer = understand(&scene(rectangles), count, &[model], &settings).unwrap();
     assert_eq!(answer.objects.len(), 1);
     answer.objects.remove(0)
 }

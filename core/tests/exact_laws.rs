@@ -308,7 +308,7 @@ fn five_hundred_segments_end_within_the_budget_and_say_so() {
     let template = Template::from_toml(CARTON).unwrap();
     let weights = weights_of_one(&template);
     let tables = random_tables(&template, &mut Random::new(16), 500, Kind::Even);
-    let settings = ExactSettings { max_nodes: 1000, max_sweeps: 2 };
+    let settings = ExactSettings { max_nodes: 1000, max_sweeps: 2, ..ExactSettings::default() };
     let solution = solve(&template, &weights, &tables, &[false; 500], rules(1), &settings).unwrap();
     assert!(!solution.is_optimal && solution.gap > 0.0 && solution.gap.is_finite());
     assert!(solution.candidates[0].score > 0.0 && solution.nodes <= 1001);

@@ -172,31 +172,7 @@ class Template:
 class ObjectModel:
     """A template with its weights (JSON text), ready to compete. Raises ValueError where they do not fit."""
 
-    def __init__(self, template: Template, weights_json: str, **search: float) -> None: ...
-
-class Problem:
-    """The segments of one group under one template: features, scores, search.
-
-    Assignments are int64 (K, parts): the number of the problem's segment that plays each part, -1 for none.
-    """
-
-    @staticmethod
-    def by_group(perception: Perception, template: Template) -> list[Problem]: ...
-    @property
-    def scene_segments(self) -> NDArray[np.int64]:
-        """(n,) numbers of the problem's segments among the perception's."""
-
-    def __len__(self) -> int: ...
-    def features(self, assignments: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Feature vectors (K, terms) of assignments (K, parts)."""
-
-    def rank(
-        self, weights: NDArray[np.float64], importance: NDArray[np.float64], most: int, **search: float
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64], float]:
-        """The best assignments (K, parts) of the staged search, their scores (K,), and the gap (eq. 1, "Inference")."""
-
-    def exhaustive(self, weights: NDArray[np.float64]) -> tuple[NDArray[np.int64], float, int]:
-        """The best of all assignments (parts,), its score, and how many were tried: small problems only."""
+    def __init__(self, template: Template, weights_json: str, **search: float | str) -> None: ...
 
 class Answer:
     """What was understood of a cloud of N points."""
@@ -225,9 +201,78 @@ def infer(
     viewpoint: tuple[float, float, float] | None = None,
     up: tuple[float, float, float] | None = None,
     perception: dict[str, float | str] | None = None,
-    search: dict[str, float] | None = None,
+    search: dict[str, float | str] | None = None,
 ) -> tuple[Perception, Answer]:
     """From a cloud to its objects in one call. Raises ValueError where the cloud cannot be used, with the mend."""
 
-def understand(perception: Perception, models: list[ObjectModel], search: dict[str, float] | None = None) -> Answer:
+def understand(
+    perception: Perception, models: list[ObjectModel], search: dict[str, float | str] | None = None
+) -> Answer:
     """Objects among the segments that perception saw."""
+
+# --- problem ---
+
+class Problem:
+    """The segments of one group under one template: features, scores, search.
+
+    Assignments are int64 (K, parts): the number of the problem's segment that plays each part, -1 for none.
+    """
+
+    @staticmethod
+    def by_group(perception: Perception, template: Template) -> list[Problem]: ...
+    @staticmethod
+    def of_segments(perception: Perception, template: Template, segments: list[int]) -> Problem:
+        """The problem of these of the perception's segments, of any group."""
+
+    @staticmethod
+    def of_values(template: Template, features: NDArray[np.float64], relations: NDArray[np.float64]) -> Problem:
+        """The problem of given values: features (F, n) and relations (R, n, n), in the template's order."""
+
+    @property
+    def scene_segments(self) -> NDArray[np.int64]:
+        """(n,) numbers of the problem's segments among the perception's."""
+
+    def __len__(self) -> int: ...
+    def features(self, assignments: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Feature vectors (K, terms) of assignments (K, parts)."""
+
+    def rank(
+        self, weights: NDArray[np.float64], importance: NDArray[np.float64], most: int, **search: float | str
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64], float]:
+        """The best assignments (K, parts) of the staged search, their scores (K,), and the gap (eq. 1, "Inference")."""
+
+    def solve(
+        self, weights: NDArray[np.float64], k: int = 1, budget: int | None = None
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64], Literal["optimal", "gap"], float, int]:
+        """The k best of all assignments (K, parts), distinct up to symmetry, and their scores (K,), best first (eq. 44).
+
+        Then the status, the gap, and the nodes visited. "optimal": proven. "gap": `budget` nodes ended the search, and no
+        assignment that is not listed scores more than the first plus the gap. Raises ValueError naming a value that is
+        no finite number.
+        """
+
+    def marginals(
+        self,
+        weights: NDArray[np.float64],
+        temperature: float,
+        tolerance: float | None = None,
+        budget: int | None = None,
+    ) -> tuple[NDArray[np.int64], float, NDArray[np.float64], float]:
+        """The best assignment (parts,), its probability, each part's (parts, n + 1), and how far off these may be.
+
+        Column s is the probability that the part is segment s, the last column that it is empty, each assignment turned to
+        the symmetric copy that agrees most with the best (eqs. 49-51). The last value is at most `tolerance` unless
+        `budget` nodes ended the sums; tolerance 0 leaves nothing out. Raises ValueError as `solve`, and for a temperature
+        that is not above 0.
+        """
+
+    def score_tables(
+        self, weights: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], list[tuple[int, int]], NDArray[np.float64]]:
+        """What a score sums up: (parts, n + 1) of parts alone, pairs of parts (E), and theirs (E, n + 1, n + 1).
+
+        State 0 is empty, state s + 1 segment s.
+        """
+
+    def exhaustive(self, weights: NDArray[np.float64]) -> tuple[NDArray[np.int64], float, int]:
+        """The best of all assignments (parts,), its score, and how many were tried: small problems only."""

@@ -45,6 +45,7 @@ def infer(
     up: tuple[float, float, float] | None = None,
     roi: Bounds | None = None,
     planes: str | None = None,
+    search: dict[str, float | str] | None = None,
     read_seconds: float = 0.0,
 ) -> Inferred:
     """Infers the articulated objects of a cloud.
@@ -53,6 +54,8 @@ def infer(
     template (shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
     known. `roi` leaves out all points beyond the bounds. `planes` names the front end that finds the planes, one of
     `_core.PLANES`; None takes the method's own (`PLANES_OF_METHOD`). All coordinates are in the cloud's frame, metres.
+    `search` overrides settings of the search by name: `{"search": "exact"}` proves each object's assignment best and
+    tells its probability (docs/maths.md, "Exact inference"); "staged", the default, is the paper's.
 
     Raises ValueError where a value does not fit or the cloud cannot be used as it is (units, frame, up), with the mend.
     """
@@ -61,7 +64,8 @@ def infer(
     if weights is not None and len(templates) != 1:
         raise ValueError("weights fit one template; name that one alone")
     planes = planes or PLANES_OF_METHOD[method]
-    models = [load_object_model(template, weights, planes)[1] for template in templates]
+    settings = search or {}
+    models = [load_object_model(template, weights, planes, **settings)[1] for template in templates]
 
     start = time.perf_counter()
     points = cloud.points if roi is None else within(cloud.points, roi)
@@ -73,6 +77,7 @@ def infer(
         viewpoint=cloud.viewpoint,
         up=up,
         perception=chosen(planes),
+        search=settings,
     )
     objects = tuple(msgspec.json.decode(text, type=Object) for text in answer.objects_json())
     total = time.perf_counter() - start

@@ -30,7 +30,7 @@ pub fn build_object(
         template: template.name.clone(),
         template_probability: None,
         score: found.candidate.score,
-        probability: None,
+        probability: found.probability,
         inference: InferenceAnswer::new(found.gap, found.alternatives),
         score_terms: score_terms(template, weights, &found.feature_vector),
         dimensions: None,

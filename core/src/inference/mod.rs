@@ -9,10 +9,13 @@ mod graph;
 mod objects;
 mod potentials;
 mod queue;
+mod settings;
 mod staged;
 
-pub use exact::{solve, ExactSettings, Rules, Solution};
+pub use exact::{marginals, solve, ExactSettings, Marginals, Rules, Solution};
 pub use exhaustive::best_exhaustive;
 pub use graph::{RelationGraph, SearchPlan, SearchPlans};
 pub use objects::{find_objects, FoundObject, ObjectModel};
+pub use potentials::{Edge, Potentials};
+pub use settings::{SearchMethod, SearchSettings};
 pub use staged::{rank_staged, Candidate, Ranking, StagedSettings};

@@ -1,7 +1,10 @@
 //! Several objects among the same segments: the best one first, then the best of what it left.
 
+use super::exact::{marginals, solve, ExactSettings, Rules};
 use super::graph::SearchPlans;
+use super::settings::{SearchMethod, SearchSettings};
 use super::staged::{rank_staged, Candidate, StagedSettings};
+use crate::error::Result;
 use crate::model::{FeatureTables, SegmentSet, Template, Weights};
 
 /// A template with weights and the way to search it: what competes for the segments.
@@ -30,6 +33,8 @@ pub struct FoundObject {
     pub gap: f64,
     /// Other assignments that were ranked against it.
     pub alternatives: usize,
+    /// Of this assignment among all of its template's; none for the staged search, and where no sum was near enough.
+    pub probability: Option<f64>,
 }
 
 /// Assignments that are ranked for each object: the best may be refused for what it lacks.
@@ -37,37 +42,95 @@ const RANKED: usize = 20;
 
 /// Takes objects out of the segments, best first, until none reaches its weights' `accept_score`. No segment is used
 /// twice; of models that score the same the first one wins.
-pub fn find_objects(models: &[ObjectModel], set: &SegmentSet, settings: &StagedSettings) -> Vec<FoundObject> {
+///
+/// # Errors
+/// What the exact search refuses: values that are no finite numbers.
+pub fn find_objects(models: &[ObjectModel], set: &SegmentSet, settings: &SearchSettings) -> Result<Vec<FoundObject>> {
     let tables: Vec<FeatureTables> = models.iter().map(|model| FeatureTables::new(&model.template, set)).collect();
     let mut taken = vec![false; set.len()];
     let mut found = Vec::new();
-    while let Some(object) = best_object(models, &tables, &taken, settings) {
+    while let Some(mut object) = best_object(models, &tables, &taken, settings)? {
+        if settings.search == SearchMethod::Exact {
+            let number = object.model;
+            object.probability = probability(&models[number], &tables[number], &taken, &object, &settings.exact)?;
+        }
         for segment in object.candidate.assignment.iter().flatten() {
             taken[*segment] = true;
         }
         found.push(object);
     }
-    found
+    Ok(found)
 }
 
 fn best_object(
     models: &[ObjectModel],
     tables: &[FeatureTables],
     taken: &[bool],
+    settings: &SearchSettings,
+) -> Result<Option<FoundObject>> {
+    let mut best: Option<FoundObject> = None;
+    for (number, (model, tables)) in models.iter().zip(tables).enumerate() {
+        let contender = match settings.search {
+            SearchMethod::Staged => staged_contender(model, tables, taken, &settings.staged),
+            SearchMethod::Exact => exact_contender(model, tables, taken, &settings.exact)?,
+        };
+        let Some(Contender { candidate, gap, alternatives }) = contender else { continue };
+        if best.as_ref().is_none_or(|best| candidate.score > best.candidate.score) {
+            let feature_vector = tables.feature_vector(&model.template, &candidate.assignment);
+            best = Some(FoundObject { model: number, candidate, feature_vector, gap, alternatives, probability: None });
+        }
+    }
+    Ok(best)
+}
+
+/// A model's best assignment that its template accepts and that scores enough.
+struct Contender {
+    candidate: Candidate,
+    gap: f64,
+    alternatives: usize,
+}
+
+fn staged_contender(
+    model: &ObjectModel,
+    tables: &FeatureTables,
+    taken: &[bool],
     settings: &StagedSettings,
-) -> Option<FoundObject> {
-    let contenders = models.iter().zip(tables).enumerate().filter_map(|(number, (model, tables))| {
-        let free = taken.iter().filter(|taken| !**taken).count();
-        let plan = model.plans.for_size(free, settings.max_candidates);
-        let ranking = rank_staged(&model.template, &model.weights, tables, plan, taken, RANKED, settings);
-        let alternatives = ranking.candidates.len().saturating_sub(1);
-        let mut ranked = ranking.candidates.into_iter().enumerate();
-        let (place, candidate) = ranked.find(|(_, c)| model.template.accept.allows(&c.assignment))?;
-        // The ranking proves its first only: of each combination of the fixed parts it holds one completion.
-        let gap = if place == 0 { ranking.gap } else { f64::INFINITY };
-        let passes = candidate.score >= model.weights.accept_score;
-        let feature_vector = tables.feature_vector(&model.template, &candidate.assignment);
-        passes.then_some(FoundObject { model: number, candidate, feature_vector, gap, alternatives })
-    });
-    contenders.reduce(|best, next| if next.candidate.score > best.candidate.score { next } else { best })
+) -> Option<Contender> {
+    let free = taken.iter().filter(|taken| !**taken).count();
+    let plan = model.plans.for_size(free, settings.max_candidates);
+    let ranking = rank_staged(&model.template, &model.weights, tables, plan, taken, RANKED, settings);
+    let alternatives = ranking.candidates.len().saturating_sub(1);
+    let mut ranked = ranking.candidates.into_iter().enumerate();
+    let (place, candidate) = ranked.find(|(_, c)| model.template.accept.allows(&c.assignment))?;
+    // The ranking proves its first only: of each combination of the fixed parts it holds one completion.
+    let gap = if place == 0 { ranking.gap } else { f64::INFINITY };
+    (candidate.score >= model.weights.accept_score).then_some(Contender { candidate, gap, alternatives })
+}
+
+fn exact_contender(
+    model: &ObjectModel,
+    tables: &FeatureTables,
+    taken: &[bool],
+    settings: &ExactSettings,
+) -> Result<Option<Contender>> {
+    let (template, weights) = (&model.template, &model.weights);
+    let rules = Rules { most: RANKED, floor: weights.accept_score, accept: Some(&template.accept) };
+    let solution = solve(template, weights, tables, taken, rules, settings)?;
+    let (gap, alternatives) = (solution.gap, solution.candidates.len().saturating_sub(1));
+    let first = solution.candidates.into_iter().next();
+    Ok(first.map(|candidate| Contender { candidate, gap, alternatives }))
+}
+
+/// Of the object's assignment among all of its template; none where the sums would leave out too much.
+fn probability(
+    model: &ObjectModel,
+    tables: &FeatureTables,
+    taken: &[bool],
+    object: &FoundObject,
+    settings: &ExactSettings,
+) -> Result<Option<f64>> {
+    let (template, weights) = (&model.template, &model.weights);
+    let reference = &object.candidate.assignment;
+    let sums = marginals(template, weights, tables, taken, reference, weights.temperature, settings)?;
+    Ok((sums.unseen <= settings.sum_tolerance).then_some(sums.probability))
 }

@@ -5,7 +5,7 @@ use crate::model::{FeatureTables, Template, Weights};
 pub struct Edge {
     pub first: usize,
     pub second: usize,
-    values: Vec<f64>,
+    pub values: Vec<f64>,
 }
 
 /// The weighted score of a set of relations as tables over states; state 0 is "empty" and scores 0.

@@ -16,6 +16,13 @@ pub struct Weights {
     pub importance: Vec<f64>,
     /// An assignment below this score is no object.
     pub accept_score: f64,
+    /// T of P(G) proportional to exp(J(G) / T) (eq. 49), in units of the score.
+    pub temperature: f64,
+}
+
+impl Weights {
+    /// Of weights that nobody has calibrated.
+    pub const UNCALIBRATED_TEMPERATURE: f64 = 1.0;
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -26,6 +33,7 @@ struct WeightsFile {
     weights: BTreeMap<String, f64>,
     importance: BTreeMap<String, f64>,
     accept_score: f64,
+    temperature: Option<f64>,
 }
 
 impl Weights {
@@ -49,10 +57,15 @@ impl Weights {
         if !file.accept_score.is_finite() {
             return Err(InputError::new("is not a finite number").at("accept_score"));
         }
+        let temperature = file.temperature.unwrap_or(Self::UNCALIBRATED_TEMPERATURE);
+        if !(temperature.is_finite() && temperature > 0.0) {
+            return Err(InputError::new(format!("is {temperature}")).at("temperature").mend("a finite number above 0"));
+        }
         Ok(Self {
             values: aligned("weights", &file.weights, template)?,
             importance: aligned("importance", &file.importance, template)?,
             accept_score: file.accept_score,
+            temperature,
         })
     }
 

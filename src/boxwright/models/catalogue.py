@@ -60,9 +60,9 @@ def _weights_path(name_or_path: str | Path, planes: str | None) -> Path:
 
 
 def load_object_model(
-    template: str | Path, weights: str | Path | None = None, planes: str | None = None, **search: float
+    template: str | Path, weights: str | Path | None = None, planes: str | None = None, **search: float | str
 ) -> tuple[_core.Template, _core.ObjectModel]:
-    """A template with its weights, ready to infer with; `search` overrides settings of the staged search.
+    """A template with its weights, ready to infer with; `search` overrides settings of the search.
 
     Without `weights` the shipped ones for the front end `planes` are taken, which only shipped templates have. Raises
     as those above.

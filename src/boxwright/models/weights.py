@@ -32,6 +32,8 @@ class LearnedWeights(msgspec.Struct, frozen=True, kw_only=True):
     weights: dict[str, float]
     importance: dict[str, float]
     accept_score: float
+    temperature: float | None = None
+    """T of the probabilities (docs/maths.md, eq. 49), in units of the score; None: not calibrated, taken as 1."""
     training: TrainingReport | None = None
     format: Literal["boxwright.weights"] = "boxwright.weights"
     version: Literal[1] = 1

@@ -53,6 +53,11 @@ impl Factors {
         }
     }
 
+    pub fn scale(&mut self, factor: f64) {
+        let tables = self.unary.iter_mut().chain(self.pairs.iter_mut().map(|pair| &mut pair.values));
+        tables.flatten().for_each(|value| *value *= factor);
+    }
+
     /// Leaves out of each domain what `keeps(part, place)` refuses. True: something went.
     pub fn trim(&mut self, keeps: impl Fn(usize, usize) -> bool) -> bool {
         let kept: Vec<Vec<usize>> =

@@ -5,14 +5,17 @@ mod ascent;
 mod checks;
 mod factors;
 mod incumbents;
+mod marginals;
 mod problem;
 mod search;
 mod settings;
 mod shortlist;
 mod solve;
+mod sum;
 mod symmetry;
 mod tighten;
 
+pub use marginals::{marginals, Marginals};
 pub use problem::Rules;
 pub use settings::ExactSettings;
 pub use solve::{solve, Solution};

@@ -46,4 +46,26 @@ impl Symmetries {
         }
         best
     }
+
+    /// How many symmetries there are, the identity counted.
+    pub fn count(&self) -> usize {
+        self.sources.len() + 1
+    }
+
+    /// How many different copies the symmetries make of the assignment.
+    pub fn copies(&self, states: &[usize]) -> usize {
+        let stays = self.sources.iter().filter(|from| from.iter().zip(states).all(|(&p, &state)| states[p] == state));
+        self.count() / (stays.count() + 1)
+    }
+
+    /// The copy that has most segments in the same parts as `reference`; of equals the last in the order of states.
+    pub fn folded(&self, states: &[usize], reference: &[usize]) -> Vec<usize> {
+        let agreement = |copy: &[usize]| copy.iter().zip(reference).filter(|(a, b)| a == b && **a != 0).count();
+        let mut best = (agreement(states), states.to_vec());
+        for from in &self.sources {
+            let copy: Vec<usize> = from.iter().map(|&p| states[p]).collect();
+            best = best.max((agreement(&copy), copy));
+        }
+        best.1
+    }
 }
