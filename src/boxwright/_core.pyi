@@ -246,9 +246,9 @@ class Problem:
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], Literal["optimal", "gap"], float, int]:
         """The k best of all assignments (K, parts), distinct up to symmetry, and their scores (K,), best first (eq. 44).
 
-        Then the status, the gap, and the nodes visited. "optimal": proven. "gap": `budget` nodes ended the search, and no
-        assignment that is not listed scores more than the first plus the gap. Raises ValueError naming a value that is
-        no finite number.
+        Then the status, the gap, and the nodes visited. "optimal": proven. "gap": `budget` nodes ended the search, and
+        no assignment that is not listed scores more than the first plus the gap. Raises ValueError naming a value that
+        is no finite number.
         """
 
     def marginals(
@@ -260,10 +260,10 @@ class Problem:
     ) -> tuple[NDArray[np.int64], float, NDArray[np.float64], float]:
         """The best assignment (parts,), its probability, each part's (parts, n + 1), and how far off these may be.
 
-        Column s is the probability that the part is segment s, the last column that it is empty, each assignment turned to
-        the symmetric copy that agrees most with the best (eqs. 49-51). The last value is at most `tolerance` unless
-        `budget` nodes ended the sums; tolerance 0 leaves nothing out. Raises ValueError as `solve`, and for a temperature
-        that is not above 0.
+        Column s is the probability that the part is segment s, the last column that it is empty, each assignment turned
+        to the symmetric copy that agrees most with the best (eqs. 49-51). The last value is at most `tolerance` unless
+        `budget` nodes ended the sums; tolerance 0 leaves nothing out. Raises ValueError as `solve`, and for a
+        temperature that is not above 0.
         """
 
     def score_tables(

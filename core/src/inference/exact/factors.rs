@@ -81,10 +81,14 @@ impl Factors {
 
 fn pair_table(potentials: &Potentials, first: usize, second: usize, domain: &[usize]) -> Vec<f64> {
     let edge = potentials.edges_of[first].iter().copied().find(|&k| potentials.other_end(k, first) == second);
-    let value = |a: usize, b: usize| match edge {
-        _ if a == b && a != 0 => f64::NEG_INFINITY,
-        Some(k) => potentials.edge_score(k, first, a, b),
-        None => 0.0,
-    };
-    domain.iter().flat_map(|&a| domain.iter().map(move |&b| (a, b))).map(|(a, b)| value(a, b)).collect()
+    let mut values = vec![0.0; domain.len() * domain.len()];
+    for (row, &a) in values.chunks_exact_mut(domain.len()).zip(domain) {
+        if let Some(k) = edge {
+            row.iter_mut().zip(domain).for_each(|(value, &b)| *value = potentials.edge_score(k, first, a, b));
+        }
+    }
+    for (place, _) in domain.iter().enumerate().filter(|(_, &state)| state != 0) {
+        values[place * domain.len() + place] = f64::NEG_INFINITY;
+    }
+    values
 }
