@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +55,7 @@ def _measured(perception: _core.Perception, template: _core.Template, chosen: ND
     return measure(), measure
 
 
+@cache
 def _perceived(seed: int, index: int) -> _core.Perception:
     frame = make_frame(CATEGORIES[index % len(CATEGORIES)], seed, index)
     cloud = Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=(0.0, 0.0, 0.0))

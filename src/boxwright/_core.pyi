@@ -244,7 +244,7 @@ class Problem:
     def solve(
         self, weights: NDArray[np.float64], k: int = 1, budget: int | None = None
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], Literal["optimal", "gap"], float, int]:
-        """The k best of all assignments (K, parts), distinct up to symmetry, and their scores (K,), best first (eq. 44).
+        """The k best assignments (K, parts), distinct up to symmetry, and their scores (K,), best first (eq. 44).
 
         Then the status, the gap, and the nodes visited. "optimal": proven. "gap": `budget` nodes ended the search, and
         no assignment that is not listed scores more than the first plus the gap. Raises ValueError naming a value that
