@@ -37,12 +37,13 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
     clock.lap("cells");
     let mut regions = Regions::grow(&cells, &noise);
     clock.lap("regions");
-    merge(&mut regions, &cells, &noise);
+    let touching = merge(&mut regions, &cells, &noise);
     clock.lap("merging");
     let labels = refine(&rays, &cells, &regions, &noise);
     clock.lap("borders");
     let runs = Runs::new(&labels, rays.width);
-    let (mut pieces, piece_of_label) = pieces(&rays, &cells, &runs, &regions, settings);
+    let is_round = round_facets(&cells, &regions, &touching);
+    let (mut pieces, piece_of_label) = pieces(&rays, &runs, &regions, &is_round, settings);
     clock.lap("outlines");
     let seen = Seen { labels: &labels, piece_of_label: &piece_of_label, width: rays.width, pieces: &pieces };
     let (ground, support) = find_ground(&readings, &seen, &noise, settings)?;
@@ -55,7 +56,8 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
     clock.lap("bases");
     let mut segments = to_segments(&pieces, &group);
     clock.lap("segments");
-    tell_sides(&mut segments, &readings, cloud, ground.support.as_ref());
+    let labels = label_image(&pieces, cloud.points.len());
+    tell_sides(&mut segments, &readings, cloud, ground.support.as_ref(), Some(labels));
     clock.lap("sides");
     Ok(Scene {
         up: ground.up,
@@ -70,12 +72,11 @@ pub fn perceive_on_grid(cloud: &CloudView, settings: &PerceptionSettings) -> Res
 /// Pieces of enough readings that are no facets of round things, and the piece of each label.
 fn pieces(
     rays: &Rays,
-    cells: &Cells,
     runs: &Runs,
     regions: &Regions,
+    is_round: &[bool],
     settings: &PerceptionSettings,
 ) -> (Vec<Piece>, Vec<u16>) {
-    let is_round = round_facets(cells, regions);
     let mut pieces = Vec::new();
     let mut piece_of_label = vec![NONE; regions.list.len()];
     for (label, runs) in runs_by_label(runs, regions.list.len()).into_iter().enumerate() {
@@ -105,4 +106,13 @@ fn to_segments(pieces: &[Piece], group: &[i32]) -> Segments {
         out.point_starts.push(out.point_indices.len() as u32);
     }
     out
+}
+
+/// The piece of each pixel, -1 for none.
+fn label_image(pieces: &[Piece], pixels: usize) -> Vec<i32> {
+    let mut labels = vec![-1; pixels];
+    for (number, piece) in pieces.iter().enumerate() {
+        piece.runs.iter().for_each(|r| labels[r.start as usize..r.end as usize].fill(number as i32));
+    }
+    labels
 }

@@ -18,7 +18,7 @@ const CELL_SLACK: f64 = 1.4;
 /// Neighbouring squares belong to one surface within this many cells.
 const TOUCHING_CELLS: f64 = 1.8;
 /// Planes that may be the ground, the largest.
-const MAX_CANDIDATES: usize = 8;
+const MAX_CANDIDATES: usize = 6;
 /// Their rectangles cover at least this.
 const MIN_AREA_M2: f64 = 0.02;
 /// Sine of the angle by which a patch may lean from a plane that it lies on.

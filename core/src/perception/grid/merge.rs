@@ -10,8 +10,8 @@ const SAME_ANGLE_RAD: f64 = 0.13;
 /// A region is part of a larger one that explains it within these sigmas: its own slope is noise.
 const ABSORB_SIGMAS: f64 = 1.2;
 
-/// Joins regions that one surface broke into, the most alike first.
-pub fn merge(regions: &mut Regions, cells: &Cells, noise: &Noise) {
+/// Joins regions that one surface broke into, the most alike first; returns the pairs that still touch.
+pub fn merge(regions: &mut Regions, cells: &Cells, noise: &Noise) -> Vec<(usize, usize)> {
     let mut contacts = contacts(regions, cells);
     loop {
         let mut best: Option<(f64, usize)> = None;
@@ -22,7 +22,10 @@ pub fn merge(regions: &mut Regions, cells: &Cells, noise: &Noise) {
                 }
             }
         }
-        let Some((_, k)) = best else { return drop_empty(regions) };
+        let Some((_, k)) = best else {
+            let number = drop_empty(regions);
+            return contacts.iter().map(|c| (number[usize::from(c.a)], number[usize::from(c.b)])).collect();
+        };
         let (a, b) = (contacts[k].a, contacts[k].b);
         join(regions, a, b);
         for contact in &mut contacts {
@@ -50,11 +53,6 @@ struct Contact {
     a: u16,
     b: u16,
     pairs: Vec<[u32; 2]>,
-}
-
-/// Pairs of regions that touch.
-pub fn touching_regions(regions: &Regions, cells: &Cells) -> Vec<(usize, usize)> {
-    contacts(regions, cells).iter().map(|c| (usize::from(c.a), usize::from(c.b))).collect()
 }
 
 fn contacts(regions: &Regions, cells: &Cells) -> Vec<Contact> {
@@ -125,10 +123,17 @@ fn join(regions: &mut Regions, into: u16, from: u16) {
     }
 }
 
-/// Numbers the regions anew, without those that went into others.
-fn drop_empty(regions: &mut Regions) {
+/// Numbers the regions anew, without those that went into others; returns the new number of each.
+fn drop_empty(regions: &mut Regions) -> Vec<usize> {
+    let mut count = 0;
+    let number = regions.list.iter().map(|r| {
+        count += usize::from(!r.cells.is_empty());
+        count.saturating_sub(1)
+    });
+    let number = number.collect();
     regions.list.retain(|r| !r.cells.is_empty());
     for (id, region) in regions.list.iter().enumerate() {
         region.cells.iter().for_each(|&cell| regions.owner[cell as usize] = id as u16);
     }
+    number
 }

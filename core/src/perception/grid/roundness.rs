@@ -1,5 +1,5 @@
 use super::cells::Cells;
-use super::merge::{angle_rad, touching_regions};
+use super::merge::angle_rad;
 use super::piece::in_space;
 use super::regions::{Region, Regions};
 use crate::geometry::{PlaneFrame, Vec3};
@@ -20,7 +20,7 @@ const MAX_CELLS: usize = 2000;
 
 /// Which regions are facets of round things: bent as a paraboloid of small radius, and beside a facet that bends
 /// the same way. Two panels that were taken for one across a fold bend as well, but alone.
-pub fn round_facets(cells: &Cells, regions: &Regions) -> Vec<bool> {
+pub fn round_facets(cells: &Cells, regions: &Regions, touching: &[(usize, usize)]) -> Vec<bool> {
     let bends: Vec<Option<Bend>> = regions.list.iter().map(|r| bend(cells, r)).collect();
     let mut is_round = vec![false; bends.len()];
     let mut mark = |a: usize, b: usize| {
@@ -29,7 +29,7 @@ pub fn round_facets(cells: &Cells, regions: &Regions) -> Vec<bool> {
             is_round[a] = true;
         }
     };
-    for (a, b) in touching_regions(regions, cells) {
+    for &(a, b) in touching {
         if angle_rad(&regions.list[a].plane, &regions.list[b].plane) < MAX_TURN_RAD {
             mark(a, b);
             mark(b, a);

@@ -34,7 +34,7 @@ pub fn perceive_by_ransac(cloud: &CloudView, settings: &PerceptionSettings) -> R
     add_bases(&readings, &indices, width, &ground, &mut found, settings);
     let mut segments = outline_all(&readings, &found);
     clock.lap("rectangles");
-    tell_sides(&mut segments, &readings, cloud, ground.support.as_ref());
+    tell_sides(&mut segments, &readings, cloud, ground.support.as_ref(), None);
     clock.lap("sides");
     let Ground { up, support, warnings, .. } = ground;
     Ok(Scene { up, support, viewpoint: cloud.viewpoint, segments, warnings, stage_seconds: clock.laps })

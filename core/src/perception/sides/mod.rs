@@ -49,10 +49,16 @@ pub fn side_kinds(
     votes.iter().map(Votes::winners).collect()
 }
 
-/// Fills in the kinds of all sides of a cloud's segments.
-pub fn tell_sides(segments: &mut Segments, readings: &Readings, cloud: &CloudView, support: Option<&Plane>) {
+/// Fills in the kinds of all sides of a cloud's segments; `labels` are theirs, where they are at hand.
+pub fn tell_sides(
+    segments: &mut Segments,
+    readings: &Readings,
+    cloud: &CloudView,
+    support: Option<&Plane>,
+    labels: Option<Vec<i32>>,
+) {
     segments.edges = if cloud.is_organized() && cloud.viewpoint.is_some() {
-        let labels = segments.labels(cloud.points.len());
+        let labels = labels.unwrap_or_else(|| segments.labels(cloud.points.len()));
         let image = SegmentImage { labels: &labels, width: cloud.width, height: cloud.height };
         side_kinds(readings, &image, &segments.planes, &segments.rectangles, support)
     } else {

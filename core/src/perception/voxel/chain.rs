@@ -62,7 +62,7 @@ pub fn perceive_on_voxels(cloud: &CloudView, settings: &PerceptionSettings) -> R
     let found = Found { surfaces: &surfaces, labels: &labels, outlines: &outlines, roles: &roles, groups: &groups };
     let mut segments = segments(&found, &voxels, &placed, cloud.viewpoint, settings);
     clock.lap("rectangles");
-    tell_sides(&mut segments, &readings, cloud, ground.support.as_ref());
+    tell_sides(&mut segments, &readings, cloud, ground.support.as_ref(), None);
     clock.lap("sides");
     let Ground { up, support, warnings, .. } = ground;
     Ok(Scene { up, support, viewpoint: cloud.viewpoint, segments, warnings, stage_seconds: clock.laps })
