@@ -22,6 +22,9 @@ METHODS = ("paper",)
 
 DEFAULT_METHOD = "paper"
 
+# Made once, at import: threads that make their first decoder of a type together have crashed.
+_OBJECT = msgspec.json.Decoder(Object)
+
 PLANES_OF_METHOD = {"paper": "ransac"}
 """The front end of each method where the user names none, one of `_core.PLANES`: the paper's is part of its method."""
 
@@ -79,7 +82,7 @@ def infer(
         perception=chosen(planes),
         search=settings,
     )
-    objects = tuple(msgspec.json.decode(text, type=Object) for text in answer.objects_json())
+    objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
     total = time.perf_counter() - start
 
     model = Model(

@@ -127,8 +127,8 @@ PlanesOption = Annotated[
         "--planes",
         callback=_known_planes,
         metavar="NAME",
-        help="How planes are found. grid: grown on the image grid, or on voxels; ransac: as of 2011. Default: that of the "
-        "method (paper: ransac); segment: grid.",
+        help="How planes are found. grid: grown on the image grid, or on voxels; ransac: as of 2011. "
+        "Default: that of the method (paper: ransac); segment: grid.",
         rich_help_panel=MODEL,
     ),
 ]

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
-from typing import TypeVar
+from threading import Lock
+from typing import Any, TypeVar
 
 import msgspec
 
 Record = TypeVar("Record")
+
+_MAKING = Lock()
+_DECODERS: dict[type, msgspec.json.Decoder[Any]] = {}
 
 
 def load_json(path: str | PathLike[str], record: type[Record]) -> Record:
@@ -18,7 +22,7 @@ def load_json(path: str | PathLike[str], record: type[Record]) -> Record:
     """
     data = Path(path).read_bytes()
     try:
-        return msgspec.json.decode(data, type=record)
+        return _decoder_of(record).decode(data)
     except RecursionError as error:
         raise ValueError(
             f"{path}: lists or objects are nested too deep; no such file has more than ten levels"
@@ -30,6 +34,14 @@ def load_json(path: str | PathLike[str], record: type[Record]) -> Record:
 def save_json(record: msgspec.Struct, path: str | PathLike[str]) -> None:
     """Write a record as indented JSON; equal records give equal bytes. Raises OSError when it cannot be written."""
     Path(path).write_bytes(msgspec.json.format(msgspec.json.encode(record), indent=1) + b"\n")
+
+
+def _decoder_of(record: type[Record]) -> msgspec.json.Decoder[Record]:
+    """Threads that make their first decoder of a type together have crashed: one at a time, and each once."""
+    with _MAKING:
+        if record not in _DECODERS:
+            _DECODERS[record] = msgspec.json.Decoder(record)
+        return _DECODERS[record]
 
 
 def _one_line(path: str | PathLike[str], message: str) -> str:

@@ -17,6 +17,9 @@ LOWEST_SCORE = 0.05
 STEP = 0.05
 """Distance of the scores that are tried."""
 
+# Made once, at import: threads that make their first decoder of a type together have crashed.
+_OBJECT = msgspec.json.Decoder(Object)
+
 FALSE_OBJECT_COST = 1.0
 """What an object where none is costs, in boxes that were understood in full."""
 
@@ -45,7 +48,7 @@ def _understood(
     model: _core.ObjectModel, perception: _core.Perception
 ) -> tuple[tuple[Object, ...], NDArray[np.int16], NDArray[np.int16]]:
     answer = _core.understand(perception, [model])
-    objects = tuple(msgspec.json.decode(text, type=Object) for text in answer.objects_json())
+    objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
     return objects, answer.object_labels, answer.part_labels
 
 

@@ -13,6 +13,8 @@ TEMPLATE_NAMES = ("carton", "cake_box", "pizza_box")
 """The shipped templates."""
 
 _HERE = Path(__file__).parent
+# Made once, at import: threads that make their first decoder of a type together have crashed.
+_WEIGHTS = msgspec.json.Decoder(LearnedWeights)
 
 
 def _template_path(name_or_path: str | Path) -> Path:
@@ -48,7 +50,7 @@ def load_weights(name_or_path: str | Path, planes: str | None = None) -> Learned
     """
     path = _weights_path(name_or_path, planes)
     try:
-        return msgspec.json.decode(_read_text(path), type=LearnedWeights)
+        return _WEIGHTS.decode(_read_text(path))
     except msgspec.DecodeError as error:
         raise ValueError(f"{path}: {error}; boxwright train writes weights that fit") from None
 
