@@ -1,4 +1,4 @@
-"""What must hold of planes on the image grid: equal bits, no dependence on the frame, an answer or a refusal to anything."""
+"""What must hold of planes on the image grid: equal bits, no dependence on the frame, an answer to anything."""
 
 from __future__ import annotations
 

@@ -97,7 +97,7 @@ fn cost(regions: &Regions, cells: &Cells, contact: &Contact, noise: &Noise) -> O
     (step < STEP_SIGMAS).then_some(off)
 }
 
-/// By how much one region lies before the other along their border, in q, where both lean as their mean does.
+/// By how much one region lies before the other along their border, in q, where both lean as their mean does (eq. 55).
 fn step(cells: &Cells, contact: &Contact, a: &RayPlane, b: &RayPlane) -> f64 {
     let mean = RayPlane { a: (a.a + b.a) / 2.0, b: (a.b + b.b) / 2.0, c: (a.c + b.c) / 2.0 };
     let rise =

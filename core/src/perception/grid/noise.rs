@@ -22,7 +22,7 @@ const BIAS_SHARE: f64 = 0.0018;
 /// By how much a reading may be of the ray beside its own, pixels: on steep planes that is most of the noise.
 const JITTER_PX: f64 = 0.55;
 
-/// How far readings stray from their plane, in inverse depth.
+/// How far readings stray from their plane, in inverse depth (eq. 53).
 #[derive(Debug, Clone, Copy)]
 pub struct Noise {
     /// Standard deviation of a reading on a plane that faces the camera, 1/m.

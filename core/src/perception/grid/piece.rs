@@ -74,7 +74,7 @@ impl Piece {
 
     /// Of the surface that its pixels cover; `pitch` lies between the rays of neighbouring pixels.
     ///
-    /// On a plane at distance d from the camera, `du dv` of rays at depth z covers `z^3 / d du dv`.
+    /// On a plane at distance d from the camera, `du dv` of rays at depth z covers `z^3 / d du dv` (eq. 57).
     pub fn area_m2(&self, pitch: f64) -> f64 {
         let Some((plane, _)) = self.moments.fit() else { return 0.0 };
         let inverse_distance = Vec3::new(plane.a, plane.b, plane.c).norm();

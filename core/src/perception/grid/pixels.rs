@@ -90,7 +90,10 @@ impl Refinement<'_> {
         for y in rows {
             let start = y * self.rays.width + x;
             if is_full {
-                self.labels[start..start + CELL_PX].fill(region);
+                // One store instead of a call: cells are narrow.
+                if let Some(line) = self.labels[start..].first_chunk_mut::<CELL_PX>() {
+                    *line = [region; CELL_PX];
+                }
             } else {
                 let seen = self.rays.quad(x, y).seen.to_bitmask();
                 (0..QUAD).filter(|lane| seen >> lane & 1 == 1).for_each(|lane| self.labels[start + lane] = region);

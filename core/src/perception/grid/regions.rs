@@ -202,6 +202,7 @@ impl Regions {
     }
 }
 
+/// Whether a cell's readings lie on the plane (eq. 54).
 fn fits(cell: &RayMoments, plane: &RayPlane, variance_on_plane: f64, noise: &Noise) -> bool {
     if cell.n < MIN_CELL_READINGS {
         return false;

@@ -18,7 +18,7 @@ const MIN_CELL_READINGS: f64 = 8.0;
 /// Larger regions are not looked at: no thing's round side looks flat over so many cells.
 const MAX_CELLS: usize = 2000;
 
-/// Which regions are facets of round things: bent as a paraboloid of small radius, and beside a facet that bends
+/// Which regions are facets of round things: bent as a paraboloid of small radius (eq. 56), and beside a facet that bends
 /// the same way. Two panels that were taken for one across a fold bend as well, but alone.
 pub fn round_facets(cells: &Cells, regions: &Regions, touching: &[(usize, usize)]) -> Vec<bool> {
     let bends: Vec<Option<Bend>> = regions.list.iter().map(|r| bend(cells, r)).collect();

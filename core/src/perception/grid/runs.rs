@@ -107,3 +107,35 @@ fn end_of_run(line: &[u16], x: usize) -> usize {
     }
     line[end..].iter().position(|&l| l != label).map_or(line.len(), |more| end + more)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_of_any_length_end_where_their_label_does() {
+        let mut cases = 0;
+        for length in 1..=40 {
+            for offset in 0..10 {
+                let mut line = vec![NONE; offset];
+                line.extend(vec![3; length]);
+                line.extend([5, 5]);
+                let runs = Runs::new(&line, line.len()).runs;
+                let (start, end) = (offset as u32, (offset + length) as u32);
+                let expected = [Run { start, end, label: 3 }, Run { start: end, end: end + 2, label: 5 }];
+                assert_eq!(runs, expected);
+                cases += 1;
+            }
+        }
+        assert_eq!(cases, 400);
+    }
+
+    #[test]
+    fn a_narrow_bridge_joins_only_where_it_is_wide_enough() {
+        let row = |text: &str| text.bytes().map(|b| if b == b'.' { NONE } else { 0 }).collect::<Vec<u16>>();
+        let labels = [row("######...."), row("....##...."), row("....######")].concat();
+        let runs = Runs::new(&labels, 10);
+        assert_eq!(runs.components(2), [0, 0, 0]);
+        assert_eq!(runs.components(3), [0, 1, 2]);
+    }
+}
