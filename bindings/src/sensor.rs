@@ -23,7 +23,7 @@ fn kinect_camera() -> Intrinsics {
 }
 
 #[pyfunction]
-#[pyo3(signature = (triangles, surface_ids, surface_rgb, seed, camera=None))]
+#[pyo3(signature = (triangles, surface_ids, surface_rgb, seed, camera=None, noise=1.0))]
 fn simulate_depth<'py>(
     py: Python<'py>,
     triangles: PyReadonlyArray3<'py, f64>,
@@ -31,6 +31,7 @@ fn simulate_depth<'py>(
     surface_rgb: PyReadonlyArray2<'py, u8>,
     seed: u64,
     camera: Option<Intrinsics>,
+    noise: f64,
 ) -> PyResult<Frame<'py>> {
     let triangles = to_triangles(&triangles)?;
     let ids = surface_ids.as_slice()?;
@@ -38,7 +39,8 @@ fn simulate_depth<'py>(
     let kinect = match camera {
         Some((fx, fy, cx, cy, width, height)) => Kinect { fx, fy, cx, cy, width, height, ..Kinect::default() },
         None => Kinect::default(),
-    };
+    }
+    .with_noise(noise);
     let scene = Scene { triangles: &triangles, surface_ids: ids, colors: &colors };
     let readings = py.detach(|| simulate(&scene, &kinect, seed)).map_err(to_value_error)?;
     let points: Vec<f32> = readings.iter().flat_map(|r| r.point).collect();

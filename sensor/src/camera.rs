@@ -56,6 +56,12 @@ impl Default for Kinect {
 }
 
 impl Kinect {
+    /// The same camera with so many times the noise.
+    pub fn with_noise(self, times: f64) -> Self {
+        let (white_px, patchy_px, ripple_px) = (self.white_px, self.patchy_px, self.ripple_px);
+        Self { white_px: times * white_px, patchy_px: times * patchy_px, ripple_px: times * ripple_px, ..self }
+    }
+
     /// # Errors
     /// [`SensorError`] naming the parameter that cannot be.
     pub fn check(&self) -> Result<(), SensorError> {
@@ -77,6 +83,10 @@ impl Kinect {
                 "range {} to {} m: expected 0 < min < max",
                 self.min_depth_m, self.max_depth_m
             )));
+        }
+        let noise = [("white_px", self.white_px), ("patchy_px", self.patchy_px), ("ripple_px", self.ripple_px)];
+        if let Some((name, value)) = noise.into_iter().find(|(_, v)| !(*v >= 0.0 && v.is_finite())) {
+            return Err(SensorError::new(format!("{name} is {value}: expected 0 or more")));
         }
         if self.grazing_from_deg.partial_cmp(&self.grazing_all_deg) != Some(std::cmp::Ordering::Less) {
             return Err(SensorError::new("grazing_from_deg must lie below grazing_all_deg"));

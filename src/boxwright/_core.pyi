@@ -129,11 +129,13 @@ def simulate_depth(
     surface_rgb: NDArray[np.uint8],
     seed: int,
     camera: tuple[float, float, float, float, int, int] | None = None,
+    noise: float = 1.0,
 ) -> tuple[NDArray[np.float32], NDArray[np.int32], NDArray[np.uint8]]:
     """A frame of the simulated Kinect: points (H*W, 3) metres with NaN for none, surface ids (H*W,), colours (H*W, 3).
 
     `triangles` (T, 3, 3) metres, optical frame; id and colour for each triangle; `camera` as of `kinect_camera`, the
-    default where None. Id 0 marks no reading and flying pixels. Same arguments, same bits, on any number of threads.
+    default where None; `noise` times its noise. Id 0: no reading, flying pixels. Same arguments, same bits, on any
+    number of threads.
 
     Raises ValueError for shapes, coordinates or intrinsics that do not fit.
     """

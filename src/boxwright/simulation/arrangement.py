@@ -21,24 +21,27 @@ TRIES = 30
 THING_GAP_M = 0.001
 """A thing that touches a box keeps this much from it."""
 STEP_M = 0.01
+SPOTS = ("touching", "inside", "around")
 
 
-def arrange_boxes(rng: Rng, category: str, count: int) -> tuple[list[PlacedBox], list[Body]]:
+def arrange_boxes(
+    rng: Rng, category: str, count: int, variant: str | None = None
+) -> tuple[list[PlacedBox], list[Body]]:
     """Open boxes centimetres apart, the first at the origin, now and then one tilted on a book; and those books."""
     boxes: list[PlacedBox] = []
     books: list[Body] = []
     for _ in range(count):
-        placed, book = _freed_box(rng, category, is_tilted=rng.random() < 0.1)
+        placed, book = _freed_box(rng, category, variant, is_tilted=rng.random() < 0.1)
         standing_at = _beside(rng, _footprint(placed, book), _all_triangles(boxes, books), rng.uniform(0.01, 0.08))
         boxes.append(msgspec.structs.replace(placed, world_from_box=standing_at @ placed.world_from_box))
         books += [Body(apply(standing_at, one.triangles), one.color) for one in book]
     return boxes, books
 
 
-def _freed_box(rng: Rng, category: str, *, is_tilted: bool) -> tuple[PlacedBox, list[Body]]:
+def _freed_box(rng: Rng, category: str, variant: str | None, *, is_tilted: bool) -> tuple[PlacedBox, list[Body]]:
     """A box at the origin whose boards keep clear of each other, and the book under it if it is tilted."""
     for _ in range(TRIES):
-        box = draw_box(rng, category)
+        box = draw_box(rng, category, variant)
         world_from_box, book = _tilt(rng, box) if is_tilted else (np.eye(4), [])
         freed = free_flaps(rng, box, world_from_box)
         if freed is None:
@@ -96,6 +99,18 @@ def arrange_clutter(rng: Rng, boxes: list[PlacedBox], present: list[Body], reach
             added += _put(rng, spot, boxes, present + added, near, reach_m)
     for _ in range(int(rng.integers(0, 7))):
         added += _put(rng, "around", boxes, present + added, None, reach_m)
+    return added
+
+
+def arrange_things(
+    rng: Rng, boxes: list[PlacedBox], present: list[Body], reach_m: tuple[float, float], count: int
+) -> list[Body]:
+    """As `arrange_clutter`, of a number of things; where one finds no place it is left out."""
+    added: list[Body] = []
+    for k in range(count):
+        spot = SPOTS[k % len(SPOTS)] if boxes else "around"
+        near = boxes[k // len(SPOTS) % len(boxes)] if boxes else None
+        added += _put(rng, spot, boxes, present + added, near, reach_m)
     return added
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from boxwright.simulation.arrangement import arrange_boxes, arrange_clutter
+from boxwright.simulation.arrangement import arrange_boxes, arrange_clutter, arrange_things
+from boxwright.simulation.conditions import DRAWN, Conditions
 from boxwright.simulation.empty import draw_decoys
 from boxwright.simulation.kinds import KINDS
-from boxwright.simulation.scene import Scene
+from boxwright.simulation.scene import Body, PlacedBox, Scene
 from boxwright.simulation.surroundings import draw_support, draw_walls
 from boxwright.simulation.views import draw_view
 from boxwright.types import Camera
@@ -20,10 +21,18 @@ BOX_COUNTS = (0.72, 0.2, 0.08)
 """How often a frame holds one, two, three boxes where the number is not given."""
 
 
-def draw_scene(rng: np.random.Generator, category: str, camera: Camera, boxes: int | None, *, clutter: bool) -> Scene:
-    """A scene of a category, with `boxes` open boxes (drawn where None)."""
+def draw_scene(
+    rng: np.random.Generator,
+    category: str,
+    camera: Camera,
+    boxes: int | None,
+    *,
+    clutter: bool,
+    conditions: Conditions = DRAWN,
+) -> Scene:
+    """A scene of a category, with `boxes` open boxes (drawn where None), under `conditions`."""
     count = 0 if category == NONE else boxes if boxes is not None else 1 + int(rng.choice(3, p=BOX_COUNTS))
-    placed, bodies = arrange_boxes(rng, category, count)
+    placed, bodies = arrange_boxes(rng, category, count, conditions.variant)
     if not placed:
         bodies = draw_decoys(rng)
     content = np.concatenate([box.triangles_world() for box in placed] + [body.triangles for body in bodies]).reshape(
@@ -31,7 +40,19 @@ def draw_scene(rng: np.random.Generator, category: str, camera: Camera, boxes: i
     )
     extent_m = 2 * float(np.abs(content[:, :2]).max()) + 0.1
     support = draw_support(rng, extent_m)
-    camera_from_world, heading = draw_view(rng, category, content, camera)
+    camera_from_world, heading = draw_view(rng, category, content, camera, conditions)
     walls = draw_walls(rng, support, heading, extent_m / 2 + float(rng.uniform(0.15, 1.2)))
-    things = arrange_clutter(rng, placed, bodies + walls, support.reach_m) if clutter else []
+    things = _things(rng, placed, bodies + walls, support.reach_m, conditions) if clutter else []
     return Scene(category, tuple(placed), (*support.bodies, *bodies, *walls, *things), camera_from_world)
+
+
+def _things(
+    rng: np.random.Generator,
+    boxes: list[PlacedBox],
+    present: list[Body],
+    reach_m: tuple[float, float],
+    conditions: Conditions,
+) -> list[Body]:
+    if conditions.things is None:
+        return arrange_clutter(rng, boxes, present, reach_m)
+    return arrange_things(rng, boxes, present, reach_m, conditions.things)

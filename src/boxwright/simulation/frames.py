@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from boxwright import _core
+from boxwright.simulation.conditions import DRAWN, Conditions
 from boxwright.simulation.drawing import CATEGORIES, NONE, draw_scene
 from boxwright.simulation.faces import flat_faces, unit_normals
 from boxwright.simulation.panels import Panel
@@ -41,21 +42,30 @@ def kinect_camera() -> Camera:
 
 
 def make_frame(
-    category: str, seed: int, index: int = 0, *, boxes: int | None = None, clutter: bool = True, name: str | None = None
+    category: str,
+    seed: int,
+    index: int = 0,
+    *,
+    boxes: int | None = None,
+    clutter: bool = True,
+    conditions: Conditions = DRAWN,
+    name: str | None = None,
 ) -> Frame:
     """Frame `index` of the endless sequence that `seed` names; frames do not depend on one another.
 
     `category` is one of small, medium, large, carton, cake, pizza, or none for a frame without an open box; `boxes`
-    is the number of open boxes, drawn where None; it says nothing to none. Same arguments, same bits.
+    is the number of open boxes, drawn where None; it says nothing to none. `conditions` sets more that is else drawn.
+    Same arguments, same bits.
 
-    Raises ValueError when the category is not known or the number of boxes is not 1, 2 or 3.
+    Raises ValueError when the category is not known, the number of boxes is not 1, 2 or 3, or no frame is so.
     """
     check_request(category, seed, index, boxes)
+    conditions.check(category)
     camera = kinect_camera()
     rng = np.random.default_rng((seed, index))
-    scene = draw_scene(rng, category, camera, boxes, clutter=clutter)
+    scene = draw_scene(rng, category, camera, boxes, clutter=clutter, conditions=conditions)
     sensor_seed = int(rng.integers(2**63))
-    return render(scene, camera, sensor_seed, name or frame_name(category, index))
+    return render(scene, camera, sensor_seed, name or frame_name(category, index), conditions.noise)
 
 
 def frame_name(category: str, index: int) -> str:
@@ -73,8 +83,8 @@ def check_request(category: str, seed: int, index: int, boxes: int | None) -> No
         raise ValueError(f"boxes is {boxes}; must be 1, 2 or 3")
 
 
-def render(scene: Scene, camera: Camera, seed: int, name: str) -> Frame:
-    """What the camera reports of a scene, and the truth about it. Same arguments, same bits."""
+def render(scene: Scene, camera: Camera, seed: int, name: str, noise: float = 1.0) -> Frame:
+    """What the camera reports of a scene, with `noise` times the Kinect's, and the truth. Same arguments, same bits."""
     panels = [(index, placed, panel) for index, placed in enumerate(scene.boxes) for panel in placed.panels]
     solids = [
         (apply(placed.world_from_box, panel.triangles), placed.box.color, np.full(len(panel.triangles), k + 1))
@@ -89,6 +99,7 @@ def render(scene: Scene, camera: Camera, seed: int, name: str) -> Frame:
         np.repeat(np.array([color for _, color, _ in solids], np.uint8), [len(t) for t, _, _ in solids], axis=0),
         seed,
         (camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height),
+        noise,
     )
     counts = np.bincount(ids, minlength=len(panels) + 1)
     parts = [_true_part(scene, *panel, int(count)) for panel, count in zip(panels, counts[1:], strict=False)]

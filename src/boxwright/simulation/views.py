@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from boxwright.simulation.conditions import DRAWN, Conditions
 from boxwright.simulation.poses import Array, apply, inverse
 from boxwright.types import Camera
 
@@ -38,10 +39,13 @@ def look_at(target_m: Array, azimuth_rad: float, elevation_rad: float, distance_
     return pose
 
 
-def draw_view(rng: Rng, category: str, content: Array, camera: Camera) -> tuple[Array, float]:
+def draw_view(
+    rng: Rng, category: str, content: Array, camera: Camera, conditions: Conditions = DRAWN
+) -> tuple[Array, float]:
     """camera_from_world, and the heading (rad, world) in which it looks; `content` (N, 3) should be in the frame.
 
     Elevations 20-90 degrees; one frame in eleven looks straight down, at any roll; one in twelve is cut by its edge.
+    What `conditions` set replaces what was drawn; a set distance is not made longer so that all fits.
     """
     azimuth = rng.uniform(0, 2 * np.pi)
     is_down = rng.random() < 0.09
@@ -52,6 +56,10 @@ def draw_view(rng: Rng, category: str, content: Array, camera: Camera) -> tuple[
     is_cut = rng.random() < 0.08
     spread = 0.30 if is_cut else 0.10
     target = middle + np.append(rng.normal(0, spread, 2), 0.0)
+    if conditions.elevation_deg is not None:
+        elevation = np.radians(conditions.elevation_deg)
+    if conditions.distance_m is not None:
+        return look_at(middle, azimuth, elevation, conditions.distance_m, roll), float(azimuth + np.pi)
     for _ in range(12):
         pose = look_at(target, azimuth, elevation, distance, roll)
         if is_cut or _fits(content, pose, camera):
