@@ -56,46 +56,54 @@ impl Cells {
     }
 }
 
-/// In single precision about one of the cell's readings, four pixels at a time, then shifted in double.
+/// In single precision about the cell's mean, four pixels at a time, then shifted in double.
 fn cell_moments(rays: &Rays, x: usize, rows: Range<usize>) -> RayMoments {
-    let (y, count) = (rows.start, rows.len());
-    let lines: [Quad; CELL_PX] = std::array::from_fn(|k| rays.quad(x, y + k.min(count - 1)));
-    let lines = &lines[..count];
-    let Some([u0, v0, q0]) = reference(lines) else { return RayMoments::default() };
-    let (u_zero, v_zero, q_zero) = (f32x4::splat(u0), f32x4::splat(v0), f32x4::splat(q0));
-    let mut sums = [f32x4::ZERO; 10];
-    for line in lines {
-        let seen = line.seen;
-        let (u, v, q) = ((line.u - u_zero) & seen, (line.v - v_zero) & seen, (line.q - q_zero) & seen);
-        let terms = [seen & f32x4::ONE, u, v, q, u * u, u * v, v * v, u * q, v * q, q * q];
-        for (sum, term) in sums.iter_mut().zip(terms) {
+    let mut lines = [Quad::NONE; CELL_PX];
+    for (line, y) in lines.iter_mut().zip(rows) {
+        *line = rays.quad(x, y);
+    }
+    let mut firsts = [f32x4::ZERO; 4];
+    for line in &lines {
+        for (sum, term) in firsts.iter_mut().zip([line.seen & f32x4::ONE, line.u, line.v, line.q]) {
             *sum += term;
         }
     }
-    let [n, u, v, q, uu, uv, vv, uq, vq, qq] = sums.map(|s| {
-        let [a, b, c, d] = s.to_array();
-        f64::from((a + b) + (c + d))
-    });
-    let [u0, v0, q0] = [f64::from(u0), f64::from(v0), f64::from(q0)];
+    let totals = sums_over_lanes(firsts);
+    let n = totals.to_array()[0];
+    if n == 0.0 {
+        return RayMoments::default();
+    }
+    let [_, u0, v0, q0] = (totals / f32x4::splat(n)).to_array();
+    let (u_zero, v_zero, q_zero) = (f32x4::splat(u0), f32x4::splat(v0), f32x4::splat(q0));
+    let mut sums = [f32x4::ZERO; 9];
+    for line in &lines {
+        let seen = line.seen;
+        let (u, v, q) = ((line.u - u_zero) & seen, (line.v - v_zero) & seen, (line.q - q_zero) & seen);
+        for (sum, term) in sums.iter_mut().zip([u, v, q, u * u, u * v, v * v, u * q, v * q, q * q]) {
+            *sum += term;
+        }
+    }
+    let [s0, s1, s2, s3, s4, s5, s6, s7, s8] = sums;
+    let four = |sums: [f32x4; 4]| sums_over_lanes(sums).to_array().map(f64::from);
+    let ([u, v, q, uu], [uv, vv, uq, vq]) = (four([s0, s1, s2, s3]), four([s4, s5, s6, s7]));
+    let [qq, ..] = four([s8, f32x4::ZERO, f32x4::ZERO, f32x4::ZERO]);
+    let [n, u0, v0, q0] = [n, u0, v0, q0].map(f64::from);
     RayMoments {
         n,
         u: u + n * u0,
         v: v + n * v0,
         q: q + n * q0,
-        uu: uu + 2.0 * u0 * u + n * u0 * u0,
-        uv: uv + u0 * v + v0 * u + n * u0 * v0,
-        vv: vv + 2.0 * v0 * v + n * v0 * v0,
-        uq: uq + u0 * q + q0 * u + n * u0 * q0,
-        vq: vq + v0 * q + q0 * v + n * v0 * q0,
-        qq: qq + 2.0 * q0 * q + n * q0 * q0,
+        uu: uu + u0 * (2.0 * u + n * u0),
+        uv: uv + u0 * v + v0 * (u + n * u0),
+        vv: vv + v0 * (2.0 * v + n * v0),
+        uq: uq + u0 * q + q0 * (u + n * u0),
+        vq: vq + v0 * q + q0 * (v + n * v0),
+        qq: qq + q0 * (2.0 * q + n * q0),
     }
 }
 
-/// u, v and q of the first reading.
-fn reference(lines: &[Quad]) -> Option<[f32; 3]> {
-    lines.iter().find_map(|line| {
-        let lane = line.seen.to_bitmask().trailing_zeros() as usize;
-        let pick = |values: f32x4| values.to_array()[lane];
-        (lane < QUAD).then(|| [pick(line.u), pick(line.v), pick(line.q)])
-    })
+/// The sum over the lanes of each of four vectors.
+fn sums_over_lanes(of: [f32x4; 4]) -> f32x4 {
+    let [a, b, c, d] = f32x4::transpose(of);
+    (a + b) + (c + d)
 }

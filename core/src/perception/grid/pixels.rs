@@ -12,8 +12,8 @@ const READING_SIGMAS: f32 = 2.6;
 const REACH_CELLS: usize = 3;
 /// Readings that make a cell pass a region on to the next.
 const MIN_PASSED: usize = 4;
-/// Regions around a cell, itself included, at most.
-const MAX_NEAR: usize = 9;
+/// Slot 0 for none, nine for the regions around a cell, itself included; a power of two spares the bounds' checks.
+const NEAR_SLOTS: usize = 16;
 
 /// Whose each pixel is: interiors whole; at the borders each reading goes to the plane that it fits best among those near.
 pub fn refine(rays: &Rays, cells: &Cells, regions: &Regions, noise: &Noise) -> Vec<u16> {
@@ -54,6 +54,18 @@ impl Model {
         let splat = |value: f64| f32x4::splat(value as f32);
         let variance = splat(noise.variance_on(plane));
         Self { a: splat(plane.a), b: splat(plane.b), c: splat(plane.c), variance }
+    }
+}
+
+/// The regions around a cell, from slot 1 on.
+struct Near {
+    slots: [u16; NEAR_SLOTS],
+    count: usize,
+}
+
+impl Near {
+    fn regions(&self) -> &[u16] {
+        &self.slots[1..=self.count]
     }
 }
 
@@ -103,30 +115,33 @@ impl Refinement<'_> {
 
     /// Gives each reading of a cell to the best plane around; the region to pass on where the cell was nobody's.
     fn take_best(&mut self, cell: usize) -> Option<u16> {
-        let (candidates, count) = self.candidates(cell);
-        let mut taken = [0usize; MAX_NEAR];
+        let near = self.near(cell);
+        let mut taken = [0usize; NEAR_SLOTS];
         let (x, rows) = self.cells.place(cell, self.rays);
         for y in rows {
             let quad = self.rays.quad(x, y);
             let bias = self.bias * quad.q * quad.q;
             let mut least = f32x4::splat(READING_SIGMAS * READING_SIGMAS);
-            let mut best = f32x4::splat(-1.0);
-            for (k, &region) in candidates[..count].iter().enumerate() {
+            let mut best = f32x4::ZERO;
+            for (slot, &region) in near.regions().iter().enumerate() {
                 let Model { a, b, c, variance } = &self.models[usize::from(region)];
                 let off = quad.q - (*a * quad.u + *b * quad.v + *c);
                 let squared_sigmas = off * off / (*variance + bias);
                 let better = squared_sigmas.simd_lt(least) & quad.seen;
                 least = better.bitselect(squared_sigmas, least);
-                best = better.bitselect(f32x4::splat(k as f32), best);
+                best = better.bitselect(f32x4::splat((slot + 1) as f32), best);
             }
+            let slots = best.fast_trunc_int().to_array().map(|slot| slot as usize % NEAR_SLOTS);
+            slots.iter().for_each(|&slot| taken[slot] += 1);
             let start = y * self.rays.width + x;
-            for (lane, k) in best.to_array().into_iter().enumerate().filter(|(_, k)| *k >= 0.0) {
-                self.labels[start + lane] = candidates[k as usize];
-                taken[k as usize] += 1;
+            let line = &mut self.labels[start..(start + QUAD).min((y + 1) * self.rays.width)];
+            match line.first_chunk_mut::<QUAD>() {
+                Some(whole) => *whole = slots.map(|slot| near.slots[slot]),
+                None => line.iter_mut().zip(slots).for_each(|(label, slot)| *label = near.slots[slot]),
             }
         }
-        let most = (0..count).fold(0, |best, k| if taken[k] > taken[best] { k } else { best });
-        (self.regions.owner[cell] == NONE && taken[most] >= MIN_PASSED).then(|| candidates[most])
+        let most = (1..=near.count).fold(1, |best, slot| if taken[slot] > taken[best] { slot } else { best });
+        (self.regions.owner[cell] == NONE && taken[most] >= MIN_PASSED).then(|| near.slots[most])
     }
 
     fn around(&self, cell: usize) -> [[u16; 3]; 3] {
@@ -138,15 +153,15 @@ impl Refinement<'_> {
     }
 
     /// The regions around a cell.
-    fn candidates(&self, cell: usize) -> ([u16; MAX_NEAR], usize) {
-        let (mut found, mut count) = ([NONE; MAX_NEAR], 0);
+    fn near(&self, cell: usize) -> Near {
+        let mut near = Near { slots: [NONE; NEAR_SLOTS], count: 0 };
         for &owner in self.around(cell).iter().flatten() {
-            if owner != NONE && !found[..count].contains(&owner) {
-                found[count] = owner;
-                count += 1;
+            if owner != NONE && !near.regions().contains(&owner) {
+                near.count += 1;
+                near.slots[near.count] = owner;
             }
         }
-        (found, count)
+        near
     }
 
     /// The untouched cells beside those that were just passed on.

@@ -1,5 +1,5 @@
 use super::pose::Pose;
-use super::quads::Quad;
+use super::quads::{Quad, QUAD};
 use std::borrow::Cow;
 
 /// Nearer than this is no reading of a depth camera, metres.
@@ -17,11 +17,13 @@ pub struct Rays<'a> {
 
 impl Rays<'_> {
     /// The pixels `x..` of row `y`; those past the image's right end are no readings.
+    #[inline]
     pub fn quad(&self, x: usize, y: usize) -> Quad {
-        let row = &self.points[y * self.width..][..self.width];
-        match row[x..].first_chunk() {
-            Some(points) => Quad::new(points),
-            None => Quad::cut(row, x, self.width),
+        let start = y * self.width + x;
+        let coordinates = self.points[start..].as_flattened();
+        match coordinates.first_chunk() {
+            Some(four) if x + QUAD <= self.width => Quad::new(four),
+            _ => Quad::cut(&self.points, start, (y + 1) * self.width),
         }
     }
 

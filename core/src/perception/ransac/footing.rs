@@ -1,5 +1,6 @@
 use super::super::PerceptionSettings;
 use super::components::{components, NONE};
+use super::ring::{ring, to_cell, Cell2};
 use super::surfels::Surfels;
 use crate::geometry::{convex_hull, hull_contains, Plane, PlaneFrame, Point2, Vec3};
 use std::collections::HashSet;
@@ -39,8 +40,6 @@ pub struct Footing {
     pub below: usize,
 }
 
-/// Integer coordinates of a footprint cell.
-type Cell2 = [i32; 2];
 /// Only asked for members, never walked in order: what the hash does, no answer shows.
 type CellSet = HashSet<Cell2, BuildHasherDefault<CellHasher>>;
 
@@ -125,22 +124,11 @@ fn standing_things(
     things
 }
 
-/// Of the cells within two of the footprint, the share that is ground.
+/// Of the cells around the footprint, the share that is ground.
 fn ring_share(footprint: &[Point2], cell_m: f64, ground: &CellSet) -> f64 {
-    let covered: CellSet = footprint.iter().map(|p| to_cell(p, cell_m)).collect();
-    let mut seen = covered.clone();
-    let (mut ring, mut shown) = (0usize, 0usize);
-    for p in footprint {
-        let [x, y] = to_cell(p, cell_m);
-        for step in 0..25 {
-            let cell = [x + step % 5 - 2, y + step / 5 - 2];
-            if seen.insert(cell) {
-                ring += 1;
-                shown += usize::from(ground.contains(&cell));
-            }
-        }
-    }
-    shown as f64 / ring.max(1) as f64
+    let ring = ring(footprint, cell_m);
+    let shown = ring.iter().filter(|cell| ground.contains(*cell)).count();
+    shown as f64 / ring.len().max(1) as f64
 }
 
 /// Number of surfels behind the plane whose line of sight crosses it amid its own readings.
@@ -176,10 +164,6 @@ fn bounds(points: &[Point2], margin_m: f64) -> [Point2; 2] {
     let low = |k: usize| points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min) - margin_m;
     let high = |k: usize| points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) + margin_m;
     [[low(0), low(1)], [high(0), high(1)]]
-}
-
-fn to_cell(p: &Point2, cell_m: f64) -> Cell2 {
-    [(p[0] / cell_m).floor() as i32, (p[1] / cell_m).floor() as i32]
 }
 
 /// Diagonal of the axis-parallel bounds, metres.

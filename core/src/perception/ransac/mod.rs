@@ -10,6 +10,7 @@ pub mod enclosure;
 mod footing;
 pub mod parting;
 mod planes;
+mod ring;
 pub mod scene_planes;
 pub mod sites;
 pub mod support;
