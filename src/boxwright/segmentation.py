@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -89,6 +90,18 @@ def vector(values: NDArray[np.float64]) -> Vector:
     """Three numbers (3,) as a record has them."""
     x, y, z = (float(v) for v in values)
     return x, y, z
+
+
+def size_m(segment: Segment) -> tuple[float, float]:
+    """Lengths of the first and second side of a segment's rectangle, metres."""
+    a, b, c, _ = segment.rectangle
+    return math.dist(a, b), math.dist(b, c)
+
+
+def tilt_deg(segment: Segment, up: Vector) -> float:
+    """How a segment leans, from level, 0, to upright, 90."""
+    along = abs(sum(n * u for n, u in zip(segment.normal, up, strict=True)))
+    return math.degrees(math.acos(min(along, 1.0)))
 
 
 def _segments(seen: Perception) -> tuple[Segment, ...]:

@@ -18,7 +18,7 @@ LAYERS = (
     ("learning",),
     ("segmentation",),
     ("pipeline",),
-    ("answers", "scoring"),
+    ("answers", "scoring", "labelling"),
     ("figures",),
     (FACE,),
     ("cli",),

@@ -50,10 +50,12 @@ def _flaps(truth: Truth, box: BoxScore, found: Object | None) -> Table:
 def _print_dimensions(truth: Truth, box: BoxScore, found: Object | None) -> None:
     if found is None or found.dimensions is None or box.rotation is None:
         return
+    true_dims = next(true.dims for true in truth.boxes if true.index == box.box)
+    if true_dims is None:
+        return
     length, width, height = found.dimensions
     if box.rotation % 2:
         length, width = width, length
-    true_dims = next(true.dims for true in truth.boxes if true.index == box.box)
     sizes = f"{_size((length, width, height))}, true {_size(true_dims)}"
     console().print(f"length x width x height: {sizes}; template {found.template}\n")
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 from boxwright.cli.outcome_report import head_of, print_files, print_problems, print_stages, print_summaries
 from boxwright.cli.screen import console, number, table
+from boxwright.segmentation import size_m, tilt_deg
 
 if TYPE_CHECKING:
     from rich.table import Table
 
     from boxwright.cli.outcome import Outcome
-    from boxwright.types import Segment, Segmentation
-    from boxwright.types.truth import Vector
+    from boxwright.types import Segmentation
 
 
 def print_outcome(outcome: Outcome[Segmentation], verbose: bool, as_json: bool) -> None:
@@ -54,21 +53,10 @@ def segment_table(title: str, found: Segmentation) -> Table:
         made.add_row(
             str(k),
             group,
-            _size(segment),
-            number(_tilt_deg(segment.normal, found.up)),
+            " x ".join(f"{1000 * side:.0f}" for side in size_m(segment)),
+            number(tilt_deg(segment, found.up)),
             number(1000 * segment.rms),
             str(segment.points),
             " ".join(segment.edges),
         )
     return made
-
-
-def _size(segment: Segment) -> str:
-    a, b, c, _ = segment.rectangle
-    return f"{1000 * math.dist(a, b):.0f} x {1000 * math.dist(b, c):.0f}"
-
-
-def _tilt_deg(normal: Vector, up: Vector) -> float:
-    """From level, 0, to upright, 90."""
-    along = abs(sum(n * u for n, u in zip(normal, up, strict=True)))
-    return math.degrees(math.acos(min(along, 1.0)))

@@ -30,8 +30,8 @@ def flap_error(joint: Joint, true_flap: TruePart, flap_name: str) -> FlapError:
 
 
 def dimension_errors(model_object: Object, true_box: TrueBox, rotation: int) -> tuple[float, float, float] | None:
-    """|difference| of length, width and height in metres, true names; None where the object does not tell them."""
-    if model_object.dimensions is None:
+    """|difference| of length, width and height in metres, true names; None where object or truth does not tell them."""
+    if model_object.dimensions is None or true_box.dims is None:
         return None
     length, width, height = model_object.dimensions
     if rotation % 2:

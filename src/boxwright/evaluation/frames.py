@@ -85,6 +85,9 @@ def _score_box(objects: tuple[Object, ...], k: int | None, overlap: Overlap, tru
         verdicts=best.verdicts if best else (),
         flap_errors=_flap_errors(objects[k], best, truth, panels) if k is not None and best else (),
         dimension_errors_m=dimension_errors(objects[k], true_box, best.rotation) if k is not None and best else None,
+        flaps_unmeasured=sum(
+            kind_of(name) == FLAP and truth.parts[panels[name]].angle_deg is None for name in in_cloud
+        ),
     )
 
 
@@ -101,12 +104,13 @@ def _best_rotation(
 
 
 def _flap_errors(model_object: Object, best: Rotated, truth: Truth, panels: dict[str, int]) -> tuple[FlapError, ...]:
-    """Errors of the right flaps that have a hinge."""
+    """Errors of the right flaps that have a hinge, and a measured one in the truth."""
     joint_of = {joint.child: joint for joint in model_object.joints}
     return tuple(
         flap_error(joint_of[v.name], truth.parts[panels[v.role]], v.role)
         for v in best.verdicts
         if v.verdict == "right" and kind_of(v.name) == FLAP and v.name in joint_of
+        if truth.parts[panels[v.role]].angle_deg is not None
     )
 
 

@@ -23,6 +23,14 @@ def from_truth_name(name: str) -> str:
     return f"{match['kind']}_{match['number']}" if match["number"] else match["kind"]
 
 
+def to_truth_name(name: str) -> str:
+    """`side0` for a part `side_0`: how a truth writes it. Raises ValueError for a name that no truth can tell."""
+    written = name.replace("_", "", 1)
+    if TRUE_NAME.fullmatch(written) is None or from_truth_name(written) != name:
+        raise ValueError(f"part {name!r}: no truth can tell it; must be lower-case letters, or these, _ and a number")
+    return written
+
+
 def kind_of(name: str) -> str:
     """The kind of a panel: `flap` for `flap_3`."""
     return name.partition("_")[0]

@@ -43,6 +43,7 @@ class BoxScore(msgspec.Struct, frozen=True, kw_only=True):
     Counts are of panels in the cloud (at least 400 readings) and of observed parts; panels are base, sides and flaps,
     tucks (flaps on flaps) are counted apart. `missed` names panels in the cloud, tucks too, that no right part holds.
     `dimension_errors_m` are |length|, |width|, |height| differences under the rotation; None where nothing was told.
+    `flaps_unmeasured` are those in the cloud whose hinge and angle the truth does not tell: they have no errors.
     """
 
     box: int
@@ -64,6 +65,7 @@ class BoxScore(msgspec.Struct, frozen=True, kw_only=True):
     verdicts: tuple[PartVerdict, ...]
     flap_errors: tuple[FlapError, ...]
     dimension_errors_m: tuple[float, float, float] | None
+    flaps_unmeasured: int = 0
 
     @property
     def flap_accuracy(self) -> float | None:

@@ -34,7 +34,8 @@ class CategorySummary(msgspec.Struct, frozen=True, kw_only=True):
     """The figures of one category, or of all. A figure is None where nothing in the set has it.
 
     Accuracies are averaged over the boxes that have a panel of the kind in the cloud. Boxes go by their own category;
-    frames, objects and false objects by the frame's. Hinge and angle errors are over right flaps that have a hinge.
+    frames, objects and false objects by the frame's. Hinge and angle errors are over right flaps that have a hinge;
+    they and the share of usable flaps leave out flaps whose hinge the truth does not tell.
     """
 
     category: str
@@ -94,6 +95,7 @@ def is_usable(error: FlapError) -> bool:
 def _summarize(category: str, frames: Sequence[FrameScore], boxes: Sequence[BoxScore]) -> CategorySummary:
     errors = [error for box in boxes for error in box.flap_errors]
     flaps_in_cloud = sum(box.flaps_in_cloud for box in boxes)
+    measured = flaps_in_cloud - sum(box.flaps_unmeasured for box in boxes)
     return CategorySummary(
         category=category,
         frames=len(frames),
@@ -108,7 +110,7 @@ def _summarize(category: str, frames: Sequence[FrameScore], boxes: Sequence[BoxS
         flaps_wrong=sum(box.flaps_wrong for box in boxes),
         tucks_in_cloud=sum(box.tucks_in_cloud for box in boxes),
         tucks_found=sum(box.tucks_found for box in boxes),
-        usable_flaps_percent=100.0 * sum(map(is_usable, errors)) / flaps_in_cloud if flaps_in_cloud else None,
+        usable_flaps_percent=100.0 * sum(map(is_usable, errors)) / measured if measured else None,
         hinge_angle_deg=_spread([math.degrees(error.hinge_angle_rad) for error in errors]),
         hinge_distance_mm=_spread([MM_PER_M * error.hinge_distance_m for error in errors]),
         flap_angle_deg=_spread([math.degrees(error.flap_angle_rad) for error in errors]),
