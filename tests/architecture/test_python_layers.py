@@ -18,7 +18,7 @@ LAYERS = (
     ("learning",),
     ("segmentation",),
     ("pipeline",),
-    ("answers", "scoring", "labelling"),
+    ("answers", "scoring", "labelling", "runner_up"),
     ("figures",),
     (FACE,),
     ("cli",),

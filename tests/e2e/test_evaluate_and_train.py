@@ -76,3 +76,24 @@ def test_explained_terms_sum_to_the_score(frame: Path, carton: tuple[str, ...], 
     table = boxwright("explain", tmp_path / "small_0000/model.json").out
     assert "Gamma 1" in table
     assert "opposite_sides_rectangular" in table
+
+
+def test_a_cloud_is_explained_with_what_came_second(frame: Path, carton: tuple[str, ...], tmp_path: Path) -> None:
+    for search, told_of in (("staged", "the staged search's list"), ("exact", "the exact search's list of all")):
+        answer = boxwright("explain", frame, *carton, "--search", search, "--json")
+        assert (answer.status, answer.err) == (0, "")
+        told = json.loads(answer.out)
+        assert told
+        for row in told:
+            second = row["runner_up"]
+            assert (row["search"], row["segments"].keys()) == (search, second["segments"].keys())
+            parted = sum(term["contribution"] for term in second["differences"])
+            assert parted == pytest.approx(row["score"] - second["score"], abs=1e-9)
+        table = boxwright("explain", frame, *carton, "--search", search).out
+        for words in (told_of, "where the two differ", "what decided", "--planes ransac"):
+            assert words in table
+    assert boxwright("infer", frame, "-o", tmp_path, *carton).status == 0
+    assert "boxwright explain CLOUD" in boxwright("explain", tmp_path / "small_0000").out
+    refused = boxwright("explain", tmp_path / "small_0000", "--search", "exact")
+    assert refused.status == 2
+    assert "a model is explained as it stands" in refused.err
