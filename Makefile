@@ -15,7 +15,7 @@ FUZZ_TARGETS = $(basename $(notdir $(wildcard core/fuzz/fuzz_targets/*.rs)))
 SHELL := bash
 .SHELLFLAGS := -eu -o pipefail -c
 
-.PHONY: help tools setup demo test check bench dist fuzz weights weights-of evaluate lock schemas
+.PHONY: help tools setup demo test check bench dist fuzz weights weights-of evaluate experiments lock schemas
 
 help: ## This list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -106,6 +106,9 @@ evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 6
 	$(BIN)/boxwright evaluate $(SETS)/test_none --method paper --planes grid -o out/test_none.json
 	$(BIN)/boxwright evaluate $(SETS)/test --method paper --planes ransac -o out/test_ransac.json
 	$(BIN)/boxwright evaluate $(SETS)/test_none --method paper --planes ransac -o out/test_none_ransac.json
+
+experiments: setup ## The paper's claims measured: tables and pictures in docs/results (half an hour)
+	$(BIN)/python -m benchmarks.experiments
 
 lock: $(VENV)/.installed ## Lock the versions of requirements/dev.in anew
 	$(BIN)/pip install --quiet uv
