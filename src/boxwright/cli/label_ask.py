@@ -33,7 +33,7 @@ def ask_roles(
     for k, segment in enumerate(segmentation.segments):
         now = roles.get(k, "")
         try:
-            roles[k] = _asked(f"{k}: {describe(segment, segmentation)} [{now or 'none'}] ", now, template)
+            roles[k] = _asked(f"{k}: {describe(segment, segmentation)}\n   role [{now or 'none'}]: ", now, template)
         except EOFError:
             raise ValueError(
                 f"{form.path}: the answers ended at segment {k} of {len(segmentation.segments)}; earlier ones are kept"

@@ -104,7 +104,7 @@ def describe(segment: Segment, segmentation: Segmentation) -> str:
     support = segmentation.support_plane
     if support is not None:
         height_m = float(np.mean(segment.rectangle, axis=0) @ np.array(support.normal)) - support.distance
-        words.append(f"{1000 * height_m:.0f} mm above the support")
+        words.append(f"{round(1000 * height_m)} mm above the support")
     words.append(f"tilt {tilt_deg(segment, segmentation.up):.0f} deg")
     if segment.group == BACKGROUND:
         words.append("background")
