@@ -110,6 +110,11 @@ impl Answer {
     }
 
     #[getter]
+    fn free_space(&self) -> bool {
+        self.answer.free_space
+    }
+
+    #[getter]
     fn warnings(&self) -> Vec<String> {
         self.answer.warnings.clone()
     }

@@ -5,8 +5,11 @@ use std::time::Instant;
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
 use crate::error::Result;
-use crate::inference::{find_objects, FoundObject, ObjectModel, SearchSettings};
+use crate::free_space::{look, Facet, PartState};
+use crate::geometry::Vec3;
+use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
 use crate::model::{Assignment, Body, SegmentSet};
+use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
 const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
@@ -20,6 +23,8 @@ pub struct Answer {
     /// For each point the number of its part among that object's parts, -1 for none.
     pub part_of_point: Vec<i16>,
     pub warnings: Vec<String>,
+    /// Whether the rays between the camera and the readings were asked for the parts' states.
+    pub free_space: bool,
     /// Seconds of each stage, in order.
     pub stage_seconds: Vec<(&'static str, f64)>,
 }
@@ -35,8 +40,26 @@ pub fn infer(
     search: &SearchSettings,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
-    let answer = understand(&scene, cloud.points.len(), models, search)?;
+    let mut answer = understand(&scene, cloud.points.len(), models, search)?;
+    if search.search == SearchMethod::Exact {
+        let start = Instant::now();
+        let readings = Readings::new(cloud, perception);
+        let told = answer.objects.iter_mut().all(|object| tell_states(object, cloud, &readings).is_some());
+        answer.free_space = told && cloud.is_organized();
+        answer.stage_seconds.push(("free_space", start.elapsed().as_secs_f64()));
+    }
     Ok((scene, answer))
+}
+
+/// What the rays say of each part with corners; `None` where they say nothing of the cloud.
+fn tell_states(object: &mut ObjectAnswer, cloud: &CloudView, readings: &Readings) -> Option<()> {
+    let facet = |corners: [[f64; 3]; 4]| Facet::new(corners.map(Vec3::from));
+    let facets = object.parts.iter().enumerate().filter_map(|(p, part)| Some((p, facet(part.corners?)?)));
+    let (numbers, facets): (Vec<usize>, Vec<Facet>) = facets.unzip();
+    for (part, looked) in numbers.into_iter().zip(look(cloud, readings, &facets)?) {
+        object.parts[part].state = Some(PartState::of(&looked));
+    }
+    Some(())
 }
 
 /// Understands a scene of `point_count` points: every group of segments against every object model.
@@ -65,6 +88,7 @@ pub fn understand(
         object_of_point: vec![-1; point_count],
         part_of_point: vec![-1; point_count],
         warnings: Vec::new(),
+        free_space: false,
         stage_seconds: Vec::new(),
     };
     for (set, object) in &found {

@@ -191,6 +191,10 @@ class Answer:
         """(N,) part of each point among its object's parts, -1 for none."""
 
     @property
+    def free_space(self) -> bool:
+        """Whether the rays between the camera and the readings were asked for the parts' states."""
+
+    @property
     def warnings(self) -> list[str]: ...
     @property
     def stage_seconds(self) -> dict[str, float]: ...

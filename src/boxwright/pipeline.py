@@ -94,7 +94,7 @@ def infer(
         seconds=Seconds(read=read_seconds, stages=perception.stage_seconds | answer.stage_seconds, total=total),
         up=vector(perception.up),
         support_plane=support_plane_of(perception),
-        free_space="no viewpoint" if cloud.viewpoint is None else "not used",
+        free_space="no viewpoint" if cloud.viewpoint is None else "used" if answer.free_space else "not used",
         objects=objects,
     )
     return Inferred(model, answer.object_labels, answer.part_labels, perception)

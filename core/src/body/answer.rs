@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::free_space::PartState;
 use crate::geometry::Vec3;
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -59,7 +60,7 @@ pub struct PoseAnswer {
 pub struct PartAnswer {
     pub name: String,
     pub observed: bool,
-    pub state: Option<()>,
+    pub state: Option<PartState>,
     pub corners: Option<[[f64; 3]; 4]>,
     pub points: usize,
 }

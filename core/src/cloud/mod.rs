@@ -18,6 +18,7 @@ mod pcd_header;
 mod ply;
 mod ply_header;
 mod ply_walk;
+mod projection;
 mod read;
 mod records;
 mod scalar;
@@ -26,6 +27,7 @@ mod text_rows;
 pub use depth::{DepthDecode, Intrinsics};
 pub use distortion::Distortion;
 pub use options::{Format, Frame, ReadOptions, Unit};
+pub use projection::Projection;
 pub use read::{read_cloud, read_depth_png};
 
 /// A cloud as it was read: the input's own frame, metres; a point with any non-finite coordinate is no reading.

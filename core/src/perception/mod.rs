@@ -5,7 +5,7 @@ mod grid;
 mod outline;
 mod perceive;
 mod ransac;
-mod readings;
+pub(crate) mod readings;
 mod scene;
 mod segment;
 mod settings;
