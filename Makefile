@@ -15,7 +15,7 @@ FUZZ_TARGETS = $(basename $(notdir $(wildcard core/fuzz/fuzz_targets/*.rs)))
 SHELL := bash
 .SHELLFLAGS := -eu -o pipefail -c
 
-.PHONY: help tools setup demo test check bench dist fuzz weights weights-of evaluate experiments lock schemas
+.PHONY: help tools setup demo test check bench dist fuzz weights weights-of weights-exact evaluate experiments lock schemas
 
 help: ## This list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -88,6 +88,7 @@ weights: setup ## Make the training frames and learn the shipped weights anew (a
 	$(BIN)/boxwright synth $(SETS)/train_none --count 30 --seed 2 --category none
 	$(MAKE) --no-print-directory weights-of PLANES=grid
 	$(MAKE) --no-print-directory weights-of PLANES=ransac
+	$(MAKE) --no-print-directory weights-exact
 
 # Each front end breaks panels in its own way: the weights are learnt on what it finds.
 weights-of:
@@ -98,6 +99,16 @@ weights-of:
 		--category cake --category carton --category none --planes $(PLANES) -o $(WEIGHTS)/$(PLANES)/cake_box.json
 	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template pizza_box \
 		--category pizza --category cake --category none --planes $(PLANES) -o $(WEIGHTS)/$(PLANES)/pizza_box.json
+
+# The method exact has its own terms and learner.
+weights-exact:
+	mkdir -p $(WEIGHTS)/exact
+	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template carton \
+		--method exact -o $(WEIGHTS)/exact/carton.json
+	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template cake_box \
+		--category cake --category carton --category none --method exact -o $(WEIGHTS)/exact/cake_box.json
+	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template pizza_box \
+		--category pizza --category cake --category none --method exact -o $(WEIGHTS)/exact/pizza_box.json
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 60 without an open box)
 	$(BIN)/boxwright synth $(SETS)/test --count 120 --seed 1000

@@ -87,8 +87,7 @@ def _chain(lab: Lab, name: str, parts: tuple[str, ...]) -> Tested:
         weights={term: common.weights[term] for term in names},
         importance={term: common.importance[term] for term in names},
     )
-    frames = [(f.perception, f.truth, f.truth_labels) for f in _training_frames(lab)]
-    return _tested(lab, name, template, choose_accept_score(template, own, frames))
+    return _tested(lab, name, template, choose_accept_score(template, own, _training_frames(lab)))
 
 
 def _training_frames(lab: Lab):

@@ -62,6 +62,39 @@ impl Problem {
         Ok(Self { template, scene_index: (0..n).collect(), tables })
     }
 
+    /// The problem without these of its segments; what is left is numbered anew, in the old order. Values stay.
+    fn without(&self, segments: Vec<usize>) -> PyResult<Self> {
+        let n = self.tables.segment_count;
+        if let Some(s) = segments.iter().find(|&&s| s >= n) {
+            return Err(PyValueError::new_err(format!("segment {s} does not exist; there are {n}")));
+        }
+        let kept: Vec<usize> = (0..n).filter(|s| !segments.contains(s)).collect();
+        Ok(Self {
+            template: self.template.clone(),
+            scene_index: kept.iter().map(|&s| self.scene_index[s]).collect(),
+            tables: self.tables.only(&kept),
+        })
+    }
+
+    /// The problem with further features, after the template's own: the parts of each, and their values (F, n).
+    fn with_features(&self, parts: Vec<Vec<usize>>, values: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        let (mut template, mut tables) = (self.template.clone(), self.tables.clone());
+        let values = values.as_array();
+        if values.shape() != [parts.len(), tables.segment_count] {
+            let problem = format!("values {:?} of {} features", values.shape(), parts.len());
+            return Err(PyValueError::new_err(format!("{problem}; a row each, {} columns", tables.segment_count)));
+        }
+        if let Some(p) = parts.iter().flatten().find(|&&p| p >= template.parts.len()) {
+            return Err(PyValueError::new_err(format!("part {p} does not exist; there are {}", template.parts.len())));
+        }
+        for (number, (parts, row)) in parts.into_iter().zip(values.outer_iter()).enumerate() {
+            let name = format!("further_{number}");
+            template.features.push(model::FeatureTerm { name, feature: model::Feature::Existence, parts });
+            tables.unary.push(row.to_vec());
+        }
+        Ok(Self { template, scene_index: self.scene_index.clone(), tables })
+    }
+
     /// Numbers of the problem's segments among the perception's.
     #[getter]
     fn scene_segments<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
@@ -239,7 +272,7 @@ impl Problem {
             let problem = format!("{} weights and {} importances for {terms} terms", values.len(), importance.len());
             return Err(PyValueError::new_err(problem));
         }
-        Ok(model::Weights { values, importance, accept_score: 0.0, temperature: 1.0 })
+        Ok(model::Weights { values, importance, accept_score: 0.0, temperature: 1.0, calibration: Default::default() })
     }
 }
 

@@ -8,10 +8,12 @@ use boxwright_core::perception::Scene;
 use common::{rectangle, scene, Random};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-const TEMPLATES: [&str; 3] = [
+const TEMPLATES: [&str; 5] = [
     include_str!("../../src/boxwright/models/templates/carton.toml"),
     include_str!("../../src/boxwright/models/templates/cake_box.toml"),
     include_str!("../../src/boxwright/models/templates/pizza_box.toml"),
+    include_str!("../../src/boxwright/models/templates/exact/carton.toml"),
+    include_str!("../../src/boxwright/models/templates/exact/pizza_box.toml"),
 ];
 /// Largest change of a value, radians or metres, that rounding excuses.
 const ROUNDING: f64 = 1e-6;
@@ -76,7 +78,7 @@ fn values_stay_under_a_rigid_motion() {
     let mut random = Random::new(2011);
     let (mut scenes, mut values, mut most) = (0, 0usize, 0.0f64);
     for round in 0..600 {
-        let template = Template::from_toml(TEMPLATES[round % 3]).unwrap();
+        let template = Template::from_toml(TEMPLATES[round % 5]).unwrap();
         let segments = 2 + (random.unit() * 11.0) as usize;
         let before = random_scene(&mut random, segments);
         let after = moved(&random_motion(&mut random), &before);

@@ -4,7 +4,7 @@ mod common;
 
 use boxwright_core::geometry::Rectangle;
 use boxwright_core::model::{FeatureTables, SegmentSet, Template};
-use boxwright_core::perception::Scene;
+use boxwright_core::perception::{EdgeKind, Scene};
 use common::{rectangle, scene};
 
 /// The value of a relation between segments 0 and 1.
@@ -226,5 +226,70 @@ fn a_terms_value_is_the_sum_over_its_pairs() {
         (value("flap_meets_side"), 4.0 * 0.05),
         (value("opposite_sides_rectangular"), 2.0 * radians(30.0)),
         (value("opposite_sides_parallel"), 2.0 * radians(15.0)),
+    ]);
+}
+
+/// An upright wall 2 wide and 1 high across y, its lower edge at height `low`.
+fn standing(y: f64, low: f64) -> Rectangle {
+    rectangle([0.0, y, low + 0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 0.5])
+}
+
+#[test]
+fn phi_4_is_the_height_of_the_lowest_edge_where_it_was_seen() {
+    let far = leaning([9.0, 9.0, 9.0], 0.0);
+    let phi = |scene: &Scene| feature("clearance", "tolerance_m = 0.03", scene);
+    let mut hidden = two(standing(0.0, 0.02), far);
+    let lowest = hidden.segments.rectangles[0].lowest_edge(&hidden.up);
+    hidden.segments.edges[0][lowest] = EdgeKind::Occluded;
+    assert_values(&[
+        (phi(&two(standing(0.0, 0.0), far)), 0.03),
+        (phi(&two(standing(0.0, 0.02), far)), 0.01),
+        // Never below minus the tolerance.
+        (phi(&two(standing(0.0, 0.5), far)), -0.03),
+        (phi(&hidden), 0.0),
+    ]);
+}
+
+#[test]
+fn phi_5_and_phi_6_are_shares_of_areas() {
+    // 2 x 1 beside 2 x 2.
+    let mut scene = two(leaning([0.0, 0.0, 0.0], 0.0), rectangle([5.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
+    let full = feature("fill", "", &scene);
+    // A triangle of half the rectangle.
+    scene.segments.hulls[0].pop();
+    assert_values(&[(full, 1.0), (feature("fill", "", &scene), 0.5), (feature("share", "", &scene), 2.0 / 6.0)]);
+}
+
+#[test]
+fn gamma_6_and_7_know_the_rim() {
+    let level = |b: Rectangle| relation("level", "tolerance_m = 0.03", &two(standing(0.0, 0.0), b));
+    // The flap comes first: its nearest edge against the top edge of the side, which is 2 long at height 1.
+    let hinge = |a: Rectangle| relation("hinge", "tolerance_m = 0.03", &two(a, standing(0.0, 0.0)));
+    assert_values(&[
+        (level(standing(3.0, 0.0)), 0.03),
+        (level(standing(3.0, 0.01)), 0.02),
+        (level(standing(3.0, -0.5)), -0.03),
+        (hinge(rectangle([0.0, 0.2, 1.0], [1.0, 0.0, 0.0], [0.0, 0.2, 0.0])), 0.03),
+        (hinge(rectangle([0.0, 0.21, 1.0], [1.0, 0.0, 0.0], [0.0, 0.2, 0.0])), 0.02),
+        // At the side's foot an edge is near, but not that of the rim.
+        (hinge(rectangle([0.0, 0.2, 0.0], [1.0, 0.0, 0.0], [0.0, 0.2, 0.0])), -0.03),
+    ]);
+}
+
+#[test]
+fn gamma_8_compares_level_edges_and_gamma_9_forbids_to_cross() {
+    let wide = |half: f64, up: f64| rectangle([0.0, 3.0, up], [half, 0.0, 0.0], [0.0, 0.0, up]);
+    let width = |b: Rectangle| relation("width", "", &two(standing(0.0, 0.0), b));
+    let aside = |b: Rectangle| relation("aside", "tolerance_m = 0.03", &two(standing(0.0, 0.0), b));
+    // A wall along y that begins at `start`; the first wall's plane is y = 0.
+    let along = |start: f64| rectangle([1.0, start + 1.0, 0.5], [0.0, 1.0, 0.0], [0.0, 0.0, 0.5]);
+    assert_values(&[
+        (width(wide(1.0, 2.0)), 1.0),
+        (width(wide(0.5, 2.0)), 0.5),
+        (aside(along(0.0)), 0.03),
+        // It lies in the plane's other half by a centimetre; the first wall only touches its plane.
+        (aside(along(-0.01)), 0.02),
+        (aside(along(-1.0)), -0.03),
+        (aside(standing(2.0, 0.0)), 0.03),
     ]);
 }

@@ -234,6 +234,12 @@ class Problem:
     def of_values(template: Template, features: NDArray[np.float64], relations: NDArray[np.float64]) -> Problem:
         """The problem of given values: features (F, n) and relations (R, n, n), in the template's order."""
 
+    def without(self, segments: list[int]) -> Problem:
+        """The problem without these of its segments; what is left is numbered anew, in the old order. Values stay."""
+
+    def with_features(self, parts: list[list[int]], values: NDArray[np.float64]) -> Problem:
+        """The problem with further features, after the template's own: the parts of each, and their values (F, n)."""
+
     @property
     def scene_segments(self) -> NDArray[np.int64]:
         """(n,) numbers of the problem's segments among the perception's."""

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from boxwright import _core
-from boxwright.models import TEMPLATE_NAMES, load_object_model
+from boxwright.models import TEMPLATE_NAMES, load_object_model, shipped_for
 from boxwright.perception import chosen
 from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
 from boxwright.types import Cloud
 from boxwright.types.model import Model, Object, Seconds
 
-METHODS = ("paper",)
+METHODS = ("paper", "exact")
 """The ways through that are built."""
 
 DEFAULT_METHOD = "paper"
@@ -25,8 +25,11 @@ DEFAULT_METHOD = "paper"
 # Made once, at import: threads that make their first decoder of a type together have crashed.
 _OBJECT = msgspec.json.Decoder(Object)
 
-PLANES_OF_METHOD = {"paper": "ransac"}
+PLANES_OF_METHOD = {"paper": "ransac", "exact": "grid"}
 """The front end of each method where the user names none, one of `_core.PLANES`: the paper's is part of its method."""
+
+SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {"paper": {"search": "staged"}, "exact": {"search": "exact"}}
+"""Settings of the search of each method, which a user may override."""
 
 
 @dataclass(frozen=True)
@@ -53,12 +56,14 @@ def infer(
 ) -> Inferred:
     """Infers the articulated objects of a cloud.
 
-    `templates` compete for the segments: shipped names or paths of `.toml` files; `weights` names one file for a single
-    template (shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
+    `method` "paper" is the pipeline of 2011; "exact" finds planes on the image grid, proves each object's assignment
+    best and tells how probable it and its parts are (docs/maths.md, "Exact inference"). `templates` compete for the
+    segments: shipped names or paths of `.toml` files; `weights` names one file for a single template (the method's
+    shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
     known. `roi` leaves out all points beyond the bounds. `planes` names the front end that finds the planes, one of
     `_core.PLANES`; None takes the method's own (`PLANES_OF_METHOD`). All coordinates are in the cloud's frame, metres.
     `search` overrides settings of the search by name: `{"search": "exact"}` proves each object's assignment best and
-    tells its probability (docs/maths.md, "Exact inference"); "staged", the default, is the paper's.
+    tells its probability (docs/maths.md, "Exact inference"); "staged" is the paper's.
 
     Raises ValueError where a value does not fit or the cloud cannot be used as it is (units, frame, up), with the mend.
     """
@@ -67,8 +72,9 @@ def infer(
     if weights is not None and len(templates) != 1:
         raise ValueError("weights fit one template; name that one alone")
     planes = planes or PLANES_OF_METHOD[method]
-    settings = search or {}
-    models = [load_object_model(template, weights, planes, **settings)[1] for template in templates]
+    settings = SEARCH_OF_METHOD[method] | (search or {})
+    shipped = shipped_for(method, planes if weights is None else PLANES_OF_METHOD[method])
+    models = [load_object_model(template, weights, shipped, **settings)[1] for template in templates]
 
     start = time.perf_counter()
     points = cloud.points if roi is None else within(cloud.points, roi)

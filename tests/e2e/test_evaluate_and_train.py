@@ -6,10 +6,12 @@ import json
 import shutil
 from pathlib import Path
 
+import msgspec
 import pytest
 
 import boxwright as face
 from boxwright.evaluation import load_evaluation
+from boxwright.io.models import load_model
 from boxwright.models import load_weights
 from support.command import boxwright
 
@@ -97,3 +99,41 @@ def test_a_cloud_is_explained_with_what_came_second(frame: Path, carton: tuple[s
     refused = boxwright("explain", tmp_path / "small_0000", "--search", "exact")
     assert refused.status == 2
     assert "a model is explained as it stands" in refused.err
+
+
+def test_the_exact_method_learns_from_few_frames_and_tells_probabilities(
+    scene_set: Path, frame: Path, tmp_path: Path
+) -> None:
+    arguments = ("train", scene_set, "--template", "carton", "--method", "exact", "--prior", "carton")
+    answer = boxwright(*arguments, "--leave-one-out", "-o", "carton.json", folder=tmp_path)
+    assert answer.status == 0, answer.err
+    assert "fitted without it" in answer.out
+    learned = load_weights(tmp_path / "carton.json")
+    assert learned.training is not None
+    assert learned.training.learner == "margin"
+    assert len(learned.training.left_out) == 3
+    assert learned.temperature is not None
+    assert learned.calibration is not None
+    used = ("--template", "carton", "--weights", tmp_path / "carton.json", "--method", "exact")
+    assert boxwright("infer", frame, "-o", tmp_path / "out", *used).status == 0
+    clouds = sorted(scene_set.glob("*.pcd"))
+    assert boxwright("infer", *clouds, "-o", tmp_path / "shipped", "--method", "exact").status == 0
+    models = [load_model(tmp_path / "shipped" / cloud.stem / "model.json") for cloud in clouds]
+    objects = [found for model in models for found in json.loads(msgspec.json.encode(model.objects))]
+    assert objects
+    for found in objects:
+        assert found["inference"] == {
+            "status": "optimal",
+            "gap": 0.0,
+            "alternatives": found["inference"]["alternatives"],
+        }
+        assert 0.0 < found["probability"] <= 1.0
+        told = [part["probability"] for part in found["parts"] if part["observed"]]
+        assert all(0.0 < probability < 1.0 for probability in told)
+        assert all(part["probability"] is None for part in found["parts"] if not part["observed"])
+    refused = boxwright("infer", frame, "-o", tmp_path / "no", "--method", "exact", "--planes", "ransac")
+    assert refused.status == 1
+    assert "learnt on planes 'grid'" in refused.err
+    ridge = boxwright(*arguments, "--learner", "ridge", "-o", "no.json", folder=tmp_path)
+    assert ridge.status == 1
+    assert "knows no prior" in ridge.err

@@ -10,6 +10,7 @@ SIDE: dict[str, Any] = {
     "state": {"seen": 0.75, "hidden": 0.25, "absent": 0.0},
     "corners": [[0.0, 0.0, 0.0], [0.4, 0.0, 0.0], [0.4, 0.0, -0.2], [0.0, 0.0, -0.2]],
     "points": 900,
+    "probability": 0.9,
 }
 FLAP: dict[str, Any] = {
     "name": "flap_0",
@@ -17,8 +18,16 @@ FLAP: dict[str, Any] = {
     "state": None,
     "corners": [[0.0, 0.0, 0.0], [0.4, 0.0, 0.0], [0.4, 0.0, 0.1], [0.0, 0.0, 0.1]],
     "points": 500,
+    "probability": 0.7,
 }
-ABSENT: dict[str, Any] = {"name": "base", "observed": False, "state": None, "corners": None, "points": 0}
+ABSENT: dict[str, Any] = {
+    "name": "base",
+    "observed": False,
+    "state": None,
+    "corners": None,
+    "points": 0,
+    "probability": None,
+}
 HINGE: dict[str, Any] = {
     "name": "hinge_0",
     "type": "revolute",

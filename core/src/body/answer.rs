@@ -61,6 +61,7 @@ pub struct PartAnswer {
     pub name: String,
     pub observed: bool,
     pub state: Option<PartState>,
+    pub probability: Option<f64>,
     pub corners: Option<[[f64; 3]; 4]>,
     pub points: usize,
 }

@@ -43,15 +43,15 @@ pub fn build_object(
     };
     match &template.body {
         Body::OpenBox(roles) if seen_sides(roles, assignment) >= SIDES_FOR_A_POSE => {
-            let renumbered = fill_open_box(&mut object, template, roles, scene, set, assignment);
+            let renumbered = fill_open_box(&mut object, template, roles, scene, set, found);
             (object, renumbered)
         }
         Body::OpenBox(_) => {
-            fill_seen_parts(&mut object, template, scene, set, assignment);
+            fill_seen_parts(&mut object, template, scene, set, found);
             (object, assignment.clone())
         }
         Body::Free => {
-            fill_seen_parts(&mut object, template, scene, set, assignment);
+            fill_seen_parts(&mut object, template, scene, set, found);
             fill_free_joints(&mut object, template, set, assignment);
             (object, assignment.clone())
         }
@@ -81,9 +81,9 @@ fn fill_open_box(
     roles: &OpenBoxRoles,
     scene: &Scene,
     set: &SegmentSet,
-    assignment: &[Option<usize>],
+    found: &FoundObject,
 ) -> Assignment {
-    let unordered = BoxSegments::new(roles, assignment);
+    let unordered = BoxSegments::new(roles, &found.candidate.assignment);
     let z = opening_direction(&unordered, set);
     let (ordered, x) = order_ring(&unordered, set, &z);
     let first = BoxFrame::new(&ordered, set, scene.support.as_ref(), x, z);
@@ -106,7 +106,7 @@ fn fill_open_box(
         hinges[part] = Some(hinge);
     }
     let renumbered = assignment_of(template, roles, &segments, &panels);
-    object.parts = parts(template, scene, set, &renumbered, &panels);
+    object.parts = parts(template, scene, (set, found), &renumbered, &panels);
     object.joints = joints(template, &hinges);
     renumbered
 }
@@ -134,7 +134,7 @@ fn assignment_of(
 fn parts(
     template: &Template,
     scene: &Scene,
-    set: &SegmentSet,
+    (set, found): (&SegmentSet, &FoundObject),
     assignment: &[Option<usize>],
     panels: &[Option<Panel>],
 ) -> Vec<PartAnswer> {
@@ -142,6 +142,7 @@ fn parts(
         name: template.parts[p].name.clone(),
         observed: panel.as_ref().is_some_and(|panel| panel.observed),
         state: None,
+        probability: assignment[p].and_then(|s| found.part_probability.get(s).copied()),
         corners: panel.as_ref().map(|panel| corner_arrays(&panel.corners)),
         points: assignment[p].map_or(0, |s| scene.segments.points_of(set.scene_index[s]).len()),
     };
@@ -188,11 +189,12 @@ fn fill_seen_parts(
     template: &Template,
     scene: &Scene,
     set: &SegmentSet,
-    assignment: &[Option<usize>],
+    found: &FoundObject,
 ) {
+    let assignment = &found.candidate.assignment;
     let panel = |s: &Option<usize>| s.map(|s| Panel { corners: set.rectangles[s].corners, observed: true });
     let panels: Vec<Option<Panel>> = assignment.iter().map(panel).collect();
-    object.parts = parts(template, scene, set, assignment, &panels);
+    object.parts = parts(template, scene, (set, found), assignment, &panels);
 }
 
 fn fill_free_joints(object: &mut ObjectAnswer, template: &Template, set: &SegmentSet, assignment: &[Option<usize>]) {

@@ -26,6 +26,22 @@ impl Rectangle {
         a * b
     }
 
+    /// Height of the middle of edge `k` along `up`, metres.
+    pub fn edge_height(&self, k: usize, up: &Vec3) -> f64 {
+        let (start, end) = self.edge(k);
+        (start + end).dot(up) / 2.0
+    }
+
+    /// The edge whose middle is highest along `up`; the first of equals.
+    pub fn highest_edge(&self, up: &Vec3) -> usize {
+        (1..4).fold(0, |best, k| if self.edge_height(k, up) > self.edge_height(best, up) { k } else { best })
+    }
+
+    /// The edge whose middle is lowest along `up`; the first of equals.
+    pub fn lowest_edge(&self, up: &Vec3) -> usize {
+        self.highest_edge(&-up)
+    }
+
     /// Unit normal by the right hand round the corners; `None` where the rectangle has no area.
     pub fn normal(&self) -> Option<Vec3> {
         let [a, b, c, _] = self.corners;

@@ -35,6 +35,8 @@ pub struct FoundObject {
     pub alternatives: usize,
     /// Of this assignment among all of its template's; none for the staged search, and where no sum was near enough.
     pub probability: Option<f64>,
+    /// For each segment of the set that has a part, the probability of that part; empty where `probability` is none.
+    pub part_probability: Vec<f64>,
 }
 
 /// Assignments that are ranked for each object: the best may be refused for what it lacks.
@@ -52,7 +54,7 @@ pub fn find_objects(models: &[ObjectModel], set: &SegmentSet, settings: &SearchS
     while let Some(mut object) = best_object(models, &tables, &taken, settings)? {
         if settings.search == SearchMethod::Exact {
             let number = object.model;
-            object.probability = probability(&models[number], &tables[number], &taken, &object, &settings.exact)?;
+            tell_probabilities(&mut object, &models[number], &tables[number], &taken, &settings.exact)?;
         }
         for segment in object.candidate.assignment.iter().flatten() {
             taken[*segment] = true;
@@ -77,7 +79,16 @@ fn best_object(
         let Some(Contender { candidate, gap, alternatives }) = contender else { continue };
         if best.as_ref().is_none_or(|best| candidate.score > best.candidate.score) {
             let feature_vector = tables.feature_vector(&model.template, &candidate.assignment);
-            best = Some(FoundObject { model: number, candidate, feature_vector, gap, alternatives, probability: None });
+            let (probability, part_probability) = (None, Vec::new());
+            best = Some(FoundObject {
+                model: number,
+                candidate,
+                feature_vector,
+                gap,
+                alternatives,
+                probability,
+                part_probability,
+            });
         }
     }
     Ok(best)
@@ -121,16 +132,27 @@ fn exact_contender(
     Ok(first.map(|candidate| Contender { candidate, gap, alternatives }))
 }
 
-/// Of the object's assignment among all of its template; none where the sums would leave out too much.
-fn probability(
+/// The probabilities of the object's assignment among all of its template, and of its parts; none where the sums would
+/// leave out too much.
+fn tell_probabilities(
+    object: &mut FoundObject,
     model: &ObjectModel,
     tables: &FeatureTables,
     taken: &[bool],
-    object: &FoundObject,
     settings: &ExactSettings,
-) -> Result<Option<f64>> {
+) -> Result<()> {
     let (template, weights) = (&model.template, &model.weights);
     let reference = &object.candidate.assignment;
     let sums = marginals(template, weights, tables, taken, reference, weights.temperature, settings)?;
-    Ok((sums.unseen <= settings.sum_tolerance).then_some(sums.probability))
+    if sums.unseen > settings.sum_tolerance {
+        return Ok(());
+    }
+    let mut by_segment = vec![0.0; taken.len()];
+    for (row, segment) in sums.parts.iter().zip(reference) {
+        if let Some(s) = segment {
+            by_segment[*s] = weights.calibration.apply(row[s + 1]);
+        }
+    }
+    (object.probability, object.part_probability) = (Some(sums.probability), by_segment);
+    Ok(())
 }

@@ -2,6 +2,7 @@
 //!
 //! The engine knows no boxes: everything about an object stands in its template (TOML).
 
+mod calibration;
 mod features;
 mod relations;
 mod segment_set;
@@ -13,6 +14,7 @@ mod template_names;
 mod template_terms;
 mod weights;
 
+pub use calibration::Calibration;
 pub use features::Feature;
 pub use relations::Relation;
 pub use segment_set::SegmentSet;

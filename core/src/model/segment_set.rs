@@ -1,5 +1,5 @@
 use crate::geometry::{Plane, Rectangle, Vec3};
-use crate::perception::Scene;
+use crate::perception::{EdgeKind, Scene};
 
 /// The segments that one search may use, and the scene facts that features measure against.
 #[derive(Debug, Clone)]
@@ -9,6 +9,10 @@ pub struct SegmentSet {
     pub planes: Vec<Plane>,
     pub rectangles: Vec<Rectangle>,
     pub centers: Vec<Vec3>,
+    /// What ends each rectangle at each of its edges.
+    pub edges: Vec<[EdgeKind; 4]>,
+    /// The share of each rectangle that the segment's hull fills, 1 where the rectangle has no area.
+    pub fills: Vec<f64>,
     /// Unit vector away from the support.
     pub up: Vec3,
     /// Whether the planes' normals look at a known viewpoint; if not, their sign means nothing.
@@ -33,6 +37,8 @@ impl SegmentSet {
         Self {
             scene_index: indices.to_vec(),
             planes: indices.iter().map(|&s| segments.planes[s]).collect(),
+            edges: indices.iter().map(|&s| segments.edges[s]).collect(),
+            fills: indices.iter().map(|&s| fill(&segments.hulls[s], &segments.rectangles[s])).collect(),
             foot: center + scene.up * (foot_height - center.dot(&scene.up)),
             rectangles,
             centers,
@@ -59,6 +65,17 @@ impl SegmentSet {
 
     pub fn is_empty(&self) -> bool {
         self.planes.is_empty()
+    }
+}
+
+fn fill(hull: &[Vec3], rectangle: &Rectangle) -> f64 {
+    let fans = hull.windows(2).skip(1).map(|edge| (edge[0] - hull[0]).cross(&(edge[1] - hull[0])));
+    let area = fans.sum::<Vec3>().norm() / 2.0;
+    let of = rectangle.area();
+    if of > 0.0 {
+        (area / of).min(1.0)
+    } else {
+        1.0
     }
 }
 

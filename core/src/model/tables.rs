@@ -24,6 +24,17 @@ impl FeatureTables {
         Self { segment_count: n, unary: unary.collect(), pair: pair.collect() }
     }
 
+    /// The tables of the segments `kept` alone, in that order.
+    pub fn only(&self, kept: &[usize]) -> Self {
+        let n = self.segment_count;
+        let pairs = |table: &Vec<f64>| kept.iter().flat_map(|&a| kept.iter().map(move |&b| table[a * n + b])).collect();
+        Self {
+            segment_count: kept.len(),
+            unary: self.unary.iter().map(|values| kept.iter().map(|&s| values[s]).collect()).collect(),
+            pair: self.pair.iter().map(pairs).collect(),
+        }
+    }
+
     /// The feature vector f(G) of eq. 1, in the order of `Template::term_names`; J(G) = w . f(G).
     pub fn feature_vector(&self, template: &Template, assignment: &[Option<usize>]) -> Vec<f64> {
         let unary = template

@@ -72,6 +72,9 @@ pub enum FeatureKind {
     Orientation,
     Location,
     Existence,
+    Clearance,
+    Fill,
+    Share,
 }
 
 #[derive(Debug, Deserialize)]
@@ -94,6 +97,10 @@ pub enum RelationKind {
     Connectivity,
     Rectangular,
     Parallel,
+    Level,
+    Hinge,
+    Width,
+    Aside,
 }
 
 #[derive(Debug, Deserialize)]

@@ -1,7 +1,9 @@
 //! A template's features and relations, from the file's strings and degrees; every error names the key and what would fit.
 
-use super::features::{Direction, Location, Orientation};
-use super::relations::{Connectivity, Parallel, Rectangular, RelativeLocation, RelativeOrientation};
+use super::features::{Clearance, Direction, Location, Orientation};
+use super::relations::{
+    Aside, Connectivity, Hinge, Level, Parallel, Rectangular, RelativeLocation, RelativeOrientation,
+};
 use super::template::{FeatureTerm, RelationTerm};
 use super::template_file::{FeatureEntry, FeatureKind, RelationEntry, RelationKind};
 use super::template_names::{at, Names};
@@ -65,6 +67,18 @@ pub fn feature(entry: &FeatureEntry, names: &Names) -> Result<FeatureTerm> {
             only(&key, &given, &[])?;
             Feature::Existence
         }
+        FeatureKind::Clearance => {
+            only(&key, &given, &["tolerance_m"])?;
+            Feature::Clearance(Clearance { tolerance_m: number(&key, "tolerance_m", entry.tolerance_m)? })
+        }
+        FeatureKind::Fill => {
+            only(&key, &given, &[])?;
+            Feature::Fill
+        }
+        FeatureKind::Share => {
+            only(&key, &given, &[])?;
+            Feature::Share
+        }
     };
     Ok(FeatureTerm { parts: names.indices(&key, &entry.parts)?, name: entry.name.clone(), feature })
 }
@@ -78,6 +92,7 @@ pub fn relation(entry: &RelationEntry, names: &Names) -> Result<RelationTerm> {
         ("tolerance_m", entry.tolerance_m.is_some()),
     ];
     let tolerance_rad = || number(&key, "tolerance_deg", entry.tolerance_deg).map(f64::to_radians);
+    let tolerance_m = || number(&key, "tolerance_m", entry.tolerance_m);
     let relation = match entry.kind {
         RelationKind::Orientation => {
             only(&key, &given, &["angle_deg", "tolerance_deg"])?;
@@ -91,7 +106,7 @@ pub fn relation(entry: &RelationEntry, names: &Names) -> Result<RelationTerm> {
         }
         RelationKind::Connectivity => {
             only(&key, &given, &["tolerance_m"])?;
-            Relation::Connectivity(Connectivity { tolerance_m: number(&key, "tolerance_m", entry.tolerance_m)? })
+            Relation::Connectivity(Connectivity { tolerance_m: tolerance_m()? })
         }
         RelationKind::Rectangular => {
             only(&key, &given, &["tolerance_deg"])?;
@@ -100,6 +115,22 @@ pub fn relation(entry: &RelationEntry, names: &Names) -> Result<RelationTerm> {
         RelationKind::Parallel => {
             only(&key, &given, &["tolerance_deg"])?;
             Relation::Parallel(Parallel { tolerance_rad: tolerance_rad()? })
+        }
+        RelationKind::Level => {
+            only(&key, &given, &["tolerance_m"])?;
+            Relation::Level(Level { tolerance_m: tolerance_m()? })
+        }
+        RelationKind::Hinge => {
+            only(&key, &given, &["tolerance_m"])?;
+            Relation::Hinge(Hinge { tolerance_m: tolerance_m()? })
+        }
+        RelationKind::Width => {
+            only(&key, &given, &[])?;
+            Relation::Width
+        }
+        RelationKind::Aside => {
+            only(&key, &given, &["tolerance_m"])?;
+            Relation::Aside(Aside { tolerance_m: tolerance_m()? })
         }
     };
     Ok(RelationTerm { pairs: pairs(&key, &entry.pairs, names)?, name: entry.name.clone(), relation })

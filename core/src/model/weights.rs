@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::Template;
+use super::{Calibration, Template};
 use crate::error::{InputError, Result};
 
 const FORMAT: &str = "boxwright.weights";
@@ -18,6 +18,7 @@ pub struct Weights {
     pub accept_score: f64,
     /// T of P(G) proportional to exp(J(G) / T) (eq. 49), in units of the score.
     pub temperature: f64,
+    pub calibration: Calibration,
 }
 
 impl Weights {
@@ -34,6 +35,7 @@ struct WeightsFile {
     importance: BTreeMap<String, f64>,
     accept_score: f64,
     temperature: Option<f64>,
+    calibration: Option<Calibration>,
 }
 
 impl Weights {
@@ -61,11 +63,14 @@ impl Weights {
         if !(temperature.is_finite() && temperature > 0.0) {
             return Err(InputError::new(format!("is {temperature}")).at("temperature").mend("a finite number above 0"));
         }
+        let calibration = file.calibration.unwrap_or_default();
+        calibration.check()?;
         Ok(Self {
             values: aligned("weights", &file.weights, template)?,
             importance: aligned("importance", &file.importance, template)?,
             accept_score: file.accept_score,
             temperature,
+            calibration,
         })
     }
 

@@ -96,8 +96,8 @@ def _of_cloud(
     search: Literal["staged", "exact"] | None,
 ) -> list[Reason]:
     from boxwright.cli.explain_report import Reason
-    from boxwright.models import load_template, load_weights
-    from boxwright.pipeline import infer
+    from boxwright.models import load_template, load_weights, shipped_for
+    from boxwright.pipeline import PLANES_OF_METHOD, infer
     from boxwright.runner_up import runner_up, segments_of
 
     method = model.method_name
@@ -112,10 +112,11 @@ def _of_cloud(
         search=None if search is None else {"search": search},
     )
     used = search or ("staged" if method == PAPER else "exact")
-    templates = {loaded.name: loaded for loaded in map(load_template, model.template_names)}
+    shipped = shipped_for(method, planes if model.weights is None else PLANES_OF_METHOD[method])
+    templates = {loaded.name: loaded for loaded in (load_template(name, shipped) for name in model.template_names)}
     reasons = []
     for k, found in enumerate(inferred.model.objects):
-        weights = load_weights(model.weights or found.template, planes)
+        weights = load_weights(model.weights or found.template, shipped)
         second = runner_up(inferred, k, templates[found.template], weights, used)
         reasons.append(Reason(found, segments_of(inferred, k), used, second))
     return reasons

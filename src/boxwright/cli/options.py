@@ -85,7 +85,11 @@ DepthDecodeOption = Annotated[
 MethodOption = Annotated[
     str | None,
     typer.Option(
-        "--method", callback=_known_method, metavar="NAME", help="paper: as of 2011 (default).", rich_help_panel=MODEL
+        "--method",
+        callback=_known_method,
+        metavar="NAME",
+        help="paper: as of 2011 (default). exact: planes of the image grid, exact search, probabilities.",
+        rich_help_panel=MODEL,
     ),
 ]
 TemplateOption = Annotated[
@@ -128,7 +132,7 @@ PlanesOption = Annotated[
         callback=_known_planes,
         metavar="NAME",
         help="How planes are found. grid: grown on the image grid, or on voxels; ransac: as of 2011. "
-        "Default: that of the method (paper: ransac); segment, label: grid.",
+        "Default: that of the method (paper: ransac, exact: grid); segment, label: grid.",
         rich_help_panel=MODEL,
     ),
 ]

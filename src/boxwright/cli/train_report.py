@@ -11,6 +11,14 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from boxwright.models import LearnedWeights
+    from boxwright.models.weights import LeftOut
+
+
+ERROR_OF_LEARNER = {
+    "ridge": "error of the predicted correctness (rms)",
+    "margin": "correctness that the best assignment lacks (mean)",
+    "likelihood": "-log of the truth's probability (mean)",
+}
 
 
 def print_json(learned: LearnedWeights) -> None:
@@ -28,9 +36,22 @@ def print_learned(learned: LearnedWeights, path: Path) -> None:
     if training is not None:
         out.print(f"{training.frames} frames, {training.candidates} candidates, regularizer {training.regularizer:g}")
         errors = f"fit {training.fit_error:.4f}, held out {training.held_out_error:.4f}"
-        out.print(f"error of the predicted correctness (rms): {errors}")
+        out.print(f"{ERROR_OF_LEARNER[training.learner]}: {errors}")
         out.print(f"the best candidate comes first for {100 * training.rank_accuracy:.1f} % of the boxes")
+        if training.left_out:
+            out.print(_left_out(training.left_out))
     out.print(f"an object from score {learned.accept_score:g}; weights in {path}", soft_wrap=True)
+
+
+def _left_out(frames: tuple[LeftOut, ...]) -> Table:
+    made = table("each frame by weights fitted without it", "frame", "correct %", "reachable %")
+    for left in frames:
+        made.add_row(left.frame, number(100 * left.correctness), number(100 * left.reachable))
+    made.add_section()
+    correct = sum(left.correctness for left in frames) / len(frames)
+    reachable = sum(left.reachable for left in frames) / len(frames)
+    made.add_row("mean", number(100 * correct), number(100 * reachable))
+    return made
 
 
 def _terms(learned: LearnedWeights) -> Table:

@@ -1,5 +1,6 @@
 """Learning of the weights from labelled frames."""
 
-from boxwright.learning.train import SeenFrame, train
+from boxwright.learning.seen import SeenFrame
+from boxwright.learning.train import train
 
 __all__ = ["SeenFrame", "train"]

@@ -2,64 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 from boxwright import _core
 from boxwright.evaluation import FrameScore, score_frame
+from boxwright.learning.seen import SeenFrame
+from boxwright.learning.understood import Understood, understand_all
 from boxwright.models import LearnedWeights
-from boxwright.types import Object, Truth
-
-LOWEST_SCORE = 0.05
-"""Nothing that scores less is ever an object."""
-
-STEP = 0.05
-"""Distance of the scores that are tried."""
-
-# Made once, at import: threads that make their first decoder of a type together have crashed.
-_OBJECT = msgspec.json.Decoder(Object)
 
 FALSE_OBJECT_COST = 1.0
 """What an object where none is costs, in boxes that were understood in full."""
 
 
+RIDGE_SCORES = tuple(float(score) for score in np.arange(0.05, 1.5, 0.05))
+"""Scores that are tried as the least of an object: the paper's scores predict correctness."""
+
+
 def choose_accept_score(
-    template: _core.Template,
-    learned: LearnedWeights,
-    frames: list[tuple[_core.Perception, Truth, NDArray[np.uint16]]],
+    template: _core.Template, learned: LearnedWeights, frames: Sequence[SeenFrame], jobs: int = 1
 ) -> LearnedWeights:
-    """The weights with the score that does best on the frames: full accuracy less false objects' cost (eq. 15)."""
-    loose = msgspec.structs.replace(learned, accept_score=LOWEST_SCORE)
-    model = _core.ObjectModel(template, msgspec.json.encode(loose).decode())
-    answers = [_understood(model, perception) for perception, _, _ in frames]
-    best_merit, best_score = -np.inf, LOWEST_SCORE
-    for score in np.arange(LOWEST_SCORE, 1.5, STEP):
-        merit = 0.0
-        for (objects, object_labels, part_labels), (_, truth, truth_labels) in zip(answers, frames, strict=True):
-            kept, labels = _at_least(float(score), objects, object_labels)
-            merit += _merit(score_frame(kept, labels, part_labels, truth, truth_labels))
-        if merit > best_merit:
-            best_merit, best_score = merit, float(score)
-    return msgspec.structs.replace(learned, accept_score=round(best_score, 6))
+    """The paper's weights with the score that does best on the frames under the staged search."""
+    loose = msgspec.structs.replace(learned, accept_score=RIDGE_SCORES[0])
+    understood = understand_all(template, loose, frames, {}, jobs)
+    return msgspec.structs.replace(learned, accept_score=best_accept_score(understood, RIDGE_SCORES))
 
 
-def _understood(
-    model: _core.ObjectModel, perception: _core.Perception
-) -> tuple[tuple[Object, ...], NDArray[np.int16], NDArray[np.int16]]:
-    answer = _core.understand(perception, [model])
-    objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
-    return objects, answer.object_labels, answer.part_labels
+def best_accept_score(understood: Sequence[Understood], scores: Sequence[float]) -> float:
+    """Of the scores that are tried the one that does best: full accuracy less false objects' cost (eq. 15).
+
+    The frames must have been understood with the lowest of the scores; of equals the first wins.
+    """
+    merits = [sum(_merit(one.at_least(score)) for one in understood) for score in scores]
+    return round(float(scores[int(np.argmax(merits))]), 6)
 
 
-def _at_least(
-    score: float, objects: tuple[Object, ...], object_labels: NDArray[np.int16]
-) -> tuple[tuple[Object, ...], NDArray[np.int16]]:
-    """The objects of at least that score; they come best first, so their numbers stay."""
-    kept = tuple(o for o in objects if o.score >= score)
-    return kept, np.where(object_labels < len(kept), object_labels, np.int16(-1))
-
-
-def _merit(score: FrameScore) -> float:
+def _merit(understood: Understood) -> float:
+    score: FrameScore = score_frame(
+        understood.objects,
+        understood.object_labels,
+        understood.part_labels,
+        understood.frame.truth,
+        understood.frame.truth_labels,
+    )
     boxes = sum(box.full_accuracy or 0.0 for box in score.boxes)
     return boxes - FALSE_OBJECT_COST * score.false_objects

@@ -37,7 +37,7 @@ class CandidatePool:
         self._problem = learning.problem
         self._kinds = {
             "truth": learning.truths,
-            "one panel": _all_one_panel_corruptions(learning.truths, segments),
+            "one panel": one_panel_corruptions(learning.truths, segments),
             "two panels": _two_panel_corruptions(learning.truths, segments, rng),
             "top": np.empty((0, learning.truths.shape[1]), np.int64),
         }
@@ -58,7 +58,7 @@ class CandidatePool:
         return any(len(rows) for rows in self._kinds.values())
 
 
-def _all_one_panel_corruptions(truths: Assignments, segments: int) -> Assignments:
+def one_panel_corruptions(truths: Assignments, segments: int) -> Assignments:
     """Every copy of a truth in which one part has become empty, or took a free segment or another part's."""
     rows = [
         _replaced(truth, part, segment)

@@ -55,6 +55,13 @@ def learning_problems(
     ]
 
 
+def no_box_gains(parts: int, segments: int) -> NDArray[np.float64]:
+    """(1, parts, segments + 1) gains where no box shows: whatever is assigned is wrong."""
+    gains = np.full((1, parts, segments + 1), -1.0)
+    gains[:, :, -1] = 0.0
+    return gains
+
+
 def _shared_points(perception: _core.Perception, truth: Truth, truth_labels: NDArray[np.uint16]) -> NDArray[np.int64]:
     """(segments, true parts + 1): points of a segment with each true label, column 0 for "on no panel"."""
     labels = perception.labels
@@ -87,10 +94,7 @@ def _learning_problem(
                 gains.append(worth[symmetry])
                 panels.append(in_cloud)
     if not gains:
-        # No box shows here: whatever is assigned is wrong.
-        gains.append(
-            np.where(np.arange(len(problem) + 1) < len(problem), -1.0, 0.0) * np.ones((len(template.parts), 1))
-        )
+        gains.extend(no_box_gains(len(template.parts), len(problem)))
         panels.append(len(template.parts))
     return LearningProblem(
         frame=frame,

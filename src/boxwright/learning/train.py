@@ -1,49 +1,32 @@
-"""From labelled frames to weights, by the paper's normal equations on candidates that the search itself proposes."""
+"""From labelled frames to weights, by one of the learners."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from typing import Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from boxwright import _core
-from boxwright.learning.acceptance import choose_accept_score
-from boxwright.learning.candidates import CandidatePool
-from boxwright.learning.problems import LearningProblem, learning_problems
-from boxwright.learning.ridge import FrameEquations, RidgeFit, fit_ridge
+from boxwright.learning.acceptance import best_accept_score, choose_accept_score
+from boxwright.learning.exact_rounds import ExactLearner, ExactProblems, learn_exact
+from boxwright.learning.learned import Learned
+from boxwright.learning.leave_one_out import leave_one_out
+from boxwright.learning.part_calibration import fit_calibration, part_verdicts
+from boxwright.learning.problems import learning_problems
+from boxwright.learning.ridge_rounds import learn_ridge
+from boxwright.learning.seen import SeenFrame
+from boxwright.learning.temperature import fit_temperature
+from boxwright.learning.understood import understand_all
 from boxwright.models import LearnedWeights
 from boxwright.models.weights import TrainingReport
-from boxwright.parallel import ordered_map
-from boxwright.types import Truth
 
-ROUNDS = 8
-"""How often weights are fitted, each time with the candidates added that the last ones liked best."""
+Learner = Literal["ridge", "margin", "likelihood"]
 
-EMPTY_GROUPS_SHARE = 0.15
-"""What the groups of a frame in which no box shows weigh together, beside those with a box; a frame weighs 1."""
-
-
-@dataclass(frozen=True, eq=False)
-class SeenFrame:
-    """A labelled frame after perception. `truth_labels` (N,): index of the true part + 1, 0 for none."""
-
-    name: str
-    perception: _core.Perception
-    truth: Truth
-    truth_labels: NDArray[np.uint16]
-
-
-@dataclass(frozen=True, eq=False)
-class _Round:
-    """Weights of one round: the better they rank the training boxes' assignments, the better the round."""
-
-    fit: RidgeFit
-    importance: NDArray[np.float64]
-    candidates: int
-    mean_correctness: float
-    rank_accuracy: float
+EXACT_SCORES = tuple(float(score) for score in np.arange(-3.0, 15.5, 0.5))
+"""The same for the learners on exact inference, in temperatures: logarithms of odds against the empty assignment."""
 
 
 def train(
@@ -51,103 +34,96 @@ def train(
     frames: Iterable[SeenFrame],
     *,
     command: str,
+    learner: Learner = "ridge",
+    prior: LearnedWeights | None = None,
+    with_leave_one_out: bool = False,
     jobs: int = 1,
     progress: Callable[[str], None] = lambda message: None,
 ) -> LearnedWeights:
     """Learns the weights of a template from labelled frames; equal frames give equal weights.
 
+    `learner`: "ridge" is the paper's; "margin" and "likelihood" learn on exact inference, and calibrate probabilities.
+    They are drawn towards the weights of `prior`, of this template or of a similar one: terms of one name are one term.
+    `with_leave_one_out` has them report each frame judged by weights fitted without it.
     `command` is written into the weights, so that they can be made again; `jobs` threads search. Raises ValueError
-    with fewer than two frames.
+    with fewer than two frames, and for a prior that shares no term.
     """
     frames = list(frames)
+    if len(frames) < 2:
+        raise ValueError(f"{len(frames)} frames to learn from; at least 2 are needed, since each is held out in turn")
     by_frame = [learning_problems(f.name, f.perception, template, f.truth, f.truth_labels) for f in frames]
-    pools = [[CandidatePool(learning, seed=k) for k, learning in enumerate(problems)] for problems in by_frame]
+    if learner == "ridge":
+        if prior is not None or with_leave_one_out:
+            raise ValueError("learner ridge knows no prior and no leave-one-out report; margin and likelihood do")
+        ridge = learn_ridge(template, by_frame, jobs=jobs, progress=progress)
+        weights = _as_weights(template, ridge, learner, command, len(frames), 0.0, None)
+        return choose_accept_score(template, weights, frames, jobs)
+    problems = ExactProblems.of(template, by_frame)
+    center = prior_center(template, prior)
+    learned = learn_exact(learner, problems, center, jobs=jobs, progress=progress)
+    weights = _calibrated(template, learned, problems, frames, learner, command, jobs)
+    if not with_leave_one_out or weights.training is None:
+        return weights
+    left_out = leave_one_out(learner, problems, [f.name for f in frames], learned, center, jobs)
+    return msgspec.structs.replace(weights, training=msgspec.structs.replace(weights.training, left_out=left_out))
+
+
+def prior_center(template: _core.Template, prior: LearnedWeights | None) -> NDArray[np.float64]:
+    """(terms,) the prior's weights by name, 0 for terms that it lacks. Raises ValueError where it shares no term."""
     names = template.feature_names + template.relation_names
-    weights, importance = np.ones(len(names)), np.ones(len(names))
-    rounds = []
-    for number in range(ROUNDS):
-        _add_top(pools, weights, importance, jobs)
-        equations, count = _equations(by_frame, pools)
-        fit = fit_ridge(equations)
-        weights, importance = fit.weights, np.abs(fit.weights) * fit.scale
-        rounds.append(_judged(fit, importance, count, by_frame, jobs))
-        progress(
-            f"round {number + 1}: {count} candidates, held-out error {fit.held_out_error:.4f}, "
-            f"mean correctness of the best {rounds[-1].mean_correctness:.3f}"
+    if prior is None:
+        return np.zeros(len(names))
+    if not set(names) & set(prior.weights):
+        raise ValueError(
+            f"the prior's weights, of {prior.template!r}, share no feature or relation with {template.name!r};"
+            " name weights of a similar template"
         )
-    best = max(rounds, key=lambda r: r.mean_correctness)
-    learned = LearnedWeights(
+    return np.array([prior.weights.get(name, 0.0) for name in names])
+
+
+def _calibrated(
+    template: _core.Template,
+    learned: Learned,
+    problems: ExactProblems,
+    frames: Sequence[SeenFrame],
+    learner: ExactLearner,
+    command: str,
+    jobs: int,
+) -> LearnedWeights:
+    """The weights with temperature, least score of an object, and the line from marginals to probabilities."""
+    temperature = fit_temperature(problems.stack(), learned.weights)
+    scores = [score * temperature for score in EXACT_SCORES]
+    loose = _as_weights(template, learned, learner, command, len(frames), scores[0], temperature)
+    understood = understand_all(template, loose, frames, {"search": "exact"}, jobs)
+    accept_score = best_accept_score(understood, scores)
+    verdicts = [verdict for one in understood for verdict in part_verdicts(one.at_least(accept_score))]
+    return msgspec.structs.replace(loose, accept_score=accept_score, calibration=fit_calibration(verdicts))
+
+
+def _as_weights(
+    template: _core.Template,
+    learned: Learned,
+    learner: Learner,
+    command: str,
+    frames: int,
+    accept_score: float,
+    temperature: float | None,
+) -> LearnedWeights:
+    names = template.feature_names + template.relation_names
+    return LearnedWeights(
         template=template.name,
-        weights=dict(zip(names, best.fit.weights.tolist(), strict=True)),
-        importance=dict(zip(names, best.importance.tolist(), strict=True)),
-        accept_score=0.0,
+        weights=dict(zip(names, learned.weights.tolist(), strict=True)),
+        importance=dict(zip(names, learned.importance.tolist(), strict=True)),
+        accept_score=accept_score,
+        temperature=temperature,
         training=TrainingReport(
             command=command,
-            frames=len(frames),
-            candidates=best.candidates,
-            regularizer=best.fit.regularizer,
-            fit_error=best.fit.fit_error,
-            held_out_error=best.fit.held_out_error,
-            rank_accuracy=best.rank_accuracy,
+            learner=learner,
+            frames=frames,
+            candidates=learned.candidates,
+            regularizer=learned.regularizer,
+            fit_error=learned.fit_error,
+            held_out_error=learned.held_out_error,
+            rank_accuracy=learned.rank_accuracy,
         ),
-    )
-    return choose_accept_score(template, learned, [(f.perception, f.truth, f.truth_labels) for f in frames])
-
-
-def _add_top(
-    pools: list[list[CandidatePool]], weights: NDArray[np.float64], importance: NDArray[np.float64], jobs: int
-) -> None:
-    flat = [pool for row in pools for pool in row]
-    for _ in ordered_map(lambda pool: pool.add_top(weights, importance), flat, jobs):
-        pass
-
-
-def _equations(
-    by_frame: list[list[LearningProblem]], pools: list[list[CandidatePool]]
-) -> tuple[list[FrameEquations], int]:
-    """Each frame's share of the normal equations, and how many candidates there are."""
-    equations, count = [], 0
-    for problems, row in zip(by_frame, pools, strict=True):
-        features, correctness, sample_weights = [], [], []
-        for learning, pool, share in zip(problems, row, _shares(problems), strict=True):
-            if pool:
-                candidates = pool.weighted()
-                features.append(learning.problem.features(candidates.assignments))
-                correctness.append(learning.correctness(candidates.assignments))
-                sample_weights.append(candidates.sample_weights * share)
-                count += len(candidates.assignments)
-        if features:
-            stacked = (np.concatenate(features), np.concatenate(correctness), np.concatenate(sample_weights))
-            equations.append(FrameEquations.of(*stacked))
-    return equations, count
-
-
-def _shares(problems: list[LearningProblem]) -> list[float]:
-    """What each problem of a frame weighs."""
-    with_box = sum(len(learning.truths) > 0 for learning in problems)
-    without = len(problems) - with_box
-    return [
-        (1.0 - EMPTY_GROUPS_SHARE) / with_box if len(learning.truths) else EMPTY_GROUPS_SHARE / without
-        for learning in problems
-    ]
-
-
-def _judged(
-    fit: RidgeFit, importance: NDArray[np.float64], count: int, by_frame: list[list[LearningProblem]], jobs: int
-) -> _Round:
-    """How correct the best ranked assignment of each group with a box is, and how often none is known to be better."""
-    problems = [learning for problems in by_frame for learning in problems if len(learning.truths)]
-
-    def best_and_reachable(learning: LearningProblem) -> tuple[float, float]:
-        ranked = learning.correctness(learning.problem.rank(fit.weights, importance, 1)[0])[0]
-        return float(ranked), max(float(ranked), float(learning.correctness(learning.truths).max()))
-
-    pairs = np.array(list(ordered_map(best_and_reachable, problems, jobs))).reshape(len(problems), 2)
-    first = pairs[:, 0] >= pairs[:, 1] - 1e-9
-    return _Round(
-        fit=fit,
-        importance=importance,
-        candidates=count,
-        mean_correctness=float(pairs[:, 0].mean()) if len(problems) else 0.0,
-        rank_accuracy=float(first.mean()) if len(problems) else 0.0,
     )

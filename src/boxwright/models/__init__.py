@@ -1,6 +1,6 @@
 """Object models as data: templates (TOML) and learned weights (JSON)."""
 
-from boxwright.models.catalogue import TEMPLATE_NAMES, load_object_model, load_template, load_weights
+from boxwright.models.catalogue import TEMPLATE_NAMES, load_object_model, load_template, load_weights, shipped_for
 from boxwright.models.weights import LearnedWeights
 
-__all__ = ["TEMPLATE_NAMES", "LearnedWeights", "load_object_model", "load_template", "load_weights"]
+__all__ = ["TEMPLATE_NAMES", "LearnedWeights", "load_object_model", "load_template", "load_weights", "shipped_for"]

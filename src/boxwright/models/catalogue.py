@@ -17,9 +17,29 @@ _HERE = Path(__file__).parent
 _WEIGHTS = msgspec.json.Decoder(LearnedWeights)
 
 
-def _template_path(name_or_path: str | Path) -> Path:
+EXACT = "exact"
+"""What is shipped for the method of that name: templates with further terms, and weights for the default front end."""
+
+
+def shipped_for(method: str, planes: str) -> str:
+    """What a method takes of what is shipped: "exact" its own, else that of the front end, one of `_core.PLANES`.
+
+    Raises ValueError where the method's weights were learnt on another front end.
+    """
+    if method != EXACT:
+        return planes
+    if planes != _core.DEFAULT_PLANES:
+        raise ValueError(
+            f"method {EXACT!r}: its shipped weights are learnt on planes {_core.DEFAULT_PLANES!r}, not {planes!r};"
+            " leave planes out, or name a template and its weights"
+        )
+    return EXACT
+
+
+def _template_path(name_or_path: str | Path, shipped: str | None) -> Path:
     if str(name_or_path) in TEMPLATE_NAMES:
-        return _HERE / "templates" / f"{name_or_path}.toml"
+        folder = _HERE / "templates"
+        return (folder / EXACT if shipped == EXACT else folder) / f"{name_or_path}.toml"
     path = Path(name_or_path)
     if path.suffix != ".toml":
         raise ValueError(
@@ -28,12 +48,14 @@ def _template_path(name_or_path: str | Path) -> Path:
     return path
 
 
-def load_template(name_or_path: str | Path) -> _core.Template:
+def load_template(name_or_path: str | Path, shipped: str | None = None) -> _core.Template:
     """A shipped template by its name, or one of the user's own by its `.toml` file.
+
+    `shipped` "exact" takes the templates of that method, which have further terms; else they are the paper's.
 
     Raises ValueError naming the file and the key that does not fit, OSError where the file cannot be read.
     """
-    path = _template_path(name_or_path)
+    path = _template_path(name_or_path, shipped)
     text = _read_text(path)
     try:
         return _core.Template(text)
@@ -41,40 +63,41 @@ def load_template(name_or_path: str | Path) -> _core.Template:
         raise ValueError(f"{path}: {error}") from None
 
 
-def load_weights(name_or_path: str | Path, planes: str | None = None) -> LearnedWeights:
+def load_weights(name_or_path: str | Path, shipped: str | None = None) -> LearnedWeights:
     """The shipped weights of a template by its name, or a weights file.
 
-    Shipped weights are learnt for each front end, one of `_core.PLANES`; `planes` None takes the default's.
+    Shipped weights are learnt for each front end, one of `_core.PLANES`, and for the method "exact"; `shipped` names
+    which, None those of the default front end.
 
     Raises ValueError naming the file and the key that does not fit, OSError where the file cannot be read.
     """
-    path = _weights_path(name_or_path, planes)
+    path = _weights_path(name_or_path, shipped)
     try:
         return _WEIGHTS.decode(_read_text(path))
     except msgspec.DecodeError as error:
         raise ValueError(f"{path}: {error}; boxwright train writes weights that fit") from None
 
 
-def _weights_path(name_or_path: str | Path, planes: str | None) -> Path:
+def _weights_path(name_or_path: str | Path, shipped: str | None) -> Path:
     if str(name_or_path) in TEMPLATE_NAMES:
-        return _HERE / "weights" / (planes or _core.DEFAULT_PLANES) / f"{name_or_path}.json"
+        return _HERE / "weights" / (shipped or _core.DEFAULT_PLANES) / f"{name_or_path}.json"
     return Path(name_or_path)
 
 
 def load_object_model(
-    template: str | Path, weights: str | Path | None = None, planes: str | None = None, **search: float | str
+    template: str | Path, weights: str | Path | None = None, shipped: str | None = None, **search: float | str
 ) -> tuple[_core.Template, _core.ObjectModel]:
     """A template with its weights, ready to infer with; `search` overrides settings of the search.
 
-    Without `weights` the shipped ones for the front end `planes` are taken, which only shipped templates have. Raises
-    as those above.
+    Without `weights` the shipped ones are taken, which only shipped templates have; `shipped` says which templates and
+    weights, as for those above. Raises as those do.
     """
-    loaded = load_template(template)
+    loaded = load_template(template, shipped)
     if weights is None and loaded.name not in TEMPLATE_NAMES:
         raise ValueError(
             f"{template}: no weights are shipped for {loaded.name!r}; train some and name them with --weights"
         )
-    path = _weights_path(loaded.name if weights is None else weights, planes)
+    path = _weights_path(loaded.name if weights is None else weights, shipped)
     try:
         return loaded, _core.ObjectModel(loaded, _read_text(path), **search)
     except ValueError as error:

@@ -12,10 +12,25 @@ from numpy.typing import NDArray
 from boxwright import _core
 
 
+class LeftOut(msgspec.Struct, frozen=True):
+    """One frame judged by weights that were fitted without it, means over its boxes."""
+
+    frame: str
+    correctness: float
+    """(right - wrong) / panels of the best assignment."""
+    reachable: float
+    """That of the best that perception leaves possible."""
+
+
 class TrainingReport(msgspec.Struct, frozen=True, kw_only=True):
-    """How the weights came to be. Errors are root mean squares of predicted against true correctness."""
+    """How the weights came to be.
+
+    Errors are those of the learner: of "ridge" root mean squares of predicted against true correctness; of "margin" the
+    mean correctness that the best assignment lacks, of "likelihood" the mean -log of the truth's probability.
+    """
 
     command: str
+    learner: str = "ridge"
     frames: int
     candidates: int
     regularizer: float
@@ -23,6 +38,14 @@ class TrainingReport(msgspec.Struct, frozen=True, kw_only=True):
     held_out_error: float
     rank_accuracy: float
     """Share of the training boxes of which the best candidate came first."""
+    left_out: tuple[LeftOut, ...] = ()
+
+
+class Calibration(msgspec.Struct, frozen=True, kw_only=True):
+    """logit(probability that a part is right) = slope x logit(its marginal) + offset (docs/maths.md, eq. 64)."""
+
+    slope: float
+    offset: float
 
 
 class LearnedWeights(msgspec.Struct, frozen=True, kw_only=True):
@@ -34,6 +57,8 @@ class LearnedWeights(msgspec.Struct, frozen=True, kw_only=True):
     accept_score: float
     temperature: float | None = None
     """T of the probabilities (docs/maths.md, eq. 49), in units of the score; None: not calibrated, taken as 1."""
+    calibration: Calibration | None = None
+    """From a part's marginal to the probability that it is right; None: the marginal as it is."""
     training: TrainingReport | None = None
     format: Literal["boxwright.weights"] = "boxwright.weights"
     version: Literal[1] = 1

@@ -71,9 +71,12 @@ class Part(msgspec.Struct, frozen=True, kw_only=True):
     state: PartState | None
     corners: Corners | None
     points: int
+    probability: float | None = None
+    """That its points are this panel's; None where the method has none, or where it was not observed."""
 
     def __post_init__(self) -> None:
         require_name("name", self.name)
+        require_probability("probability", self.probability)
         for corner in self.corners or ():
             require_finite("corners", corner)
         require_not_negative("points", [self.points])

@@ -20,7 +20,7 @@ fn nearest_edge_distance_m(a: &Rectangle, b: &Rectangle) -> f64 {
 
 /// Mean distance of the shorter edge's ends from the longer edge: 0 for a flap's edge on its side's edge, half a length where
 /// two edges only meet at a corner.
-fn edge_distance_m(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> f64 {
+pub fn edge_distance_m(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> f64 {
     let (short, long) = if (a.1 - a.0).norm_squared() <= (b.1 - b.0).norm_squared() { (a, b) } else { (b, a) };
     (point_to_segment_m(&short.0, &long) + point_to_segment_m(&short.1, &long)) / 2.0
 }
