@@ -117,6 +117,9 @@ evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 6
 	$(BIN)/boxwright evaluate $(SETS)/test_none --method paper --planes grid -o out/test_none.json
 	$(BIN)/boxwright evaluate $(SETS)/test --method paper --planes ransac -o out/test_ransac.json
 	$(BIN)/boxwright evaluate $(SETS)/test_none --method paper --planes ransac -o out/test_none_ransac.json
+	$(BIN)/boxwright evaluate $(SETS)/test --method exact -o out/test_exact.json
+	$(BIN)/boxwright evaluate $(SETS)/test_none --method exact -o out/test_none_exact.json
+	$(BIN)/python benchmarks/calibration.py $(SETS)/test $(SETS)/test_none --figure docs/results/calibration.png
 
 experiments: setup ## The paper's claims measured: tables and pictures in docs/results (half an hour)
 	$(BIN)/python -m benchmarks.experiments
