@@ -63,12 +63,12 @@ def run(lab: Lab) -> Report:
         title="c, the share of the candidates that are ranked with every relation",
         claim='"as c becomes larger than 1/4, the optimal solution converges to the predicted" one.',
         how=(
-            f"{len(problems)} groups of at least {SMALLEST} segments in {count} simulated frames (planes by RANSAC, the "
-            "shipped carton weights). c says something only where relations are left out of the first stage, so its "
-            "cost is held to n^4 and n^3 here (n^3 leaves a tree, which is solved in n^2: a list of one); with every "
-            "relation in (n^5, as shipped up to 25 segments) the first stage is proven and c has no part. The list "
-            "holds one completion for each combination of the parts that are fixed. *As at c = 1* and *as exact*: "
-            "share of the groups whose answer scores as high; *deficit*: mean of what the score lacks."
+            f"{len(problems)} groups of at least {SMALLEST} segments in {count} simulated frames (planes by RANSAC, "
+            "the shipped carton weights). c says something only where relations are left out of the first stage, so "
+            "its cost is held to n^4 and n^3 here (n^3 leaves a tree, which is solved in n^2: a list of one); with "
+            "every relation in (n^5, as shipped up to 25 segments) the first stage is proven and c has no part. The "
+            "list holds one completion for each combination of the parts that are fixed. *As at c = 1* and *as "
+            "exact*: share of the groups whose answer scores as high; *deficit*: mean of what the score lacks."
         ),
         tables=(_table(found), _limits(limits)),
         draw=lambda figure: _draw(figure, found, limits["exact"][1]),
