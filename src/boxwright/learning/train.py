@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from boxwright import _core
 from boxwright.learning.acceptance import best_accept_score, choose_accept_score
 from boxwright.learning.exact_rounds import ExactLearner, ExactProblems, learn_exact
+from boxwright.learning.held_out import understand_held_out
 from boxwright.learning.learned import Learned
 from boxwright.learning.leave_one_out import leave_one_out
 from boxwright.learning.part_calibration import fit_calibration, part_verdicts
@@ -61,7 +62,7 @@ def train(
     problems = ExactProblems.of(template, by_frame)
     center = prior_center(template, prior)
     learned = learn_exact(learner, problems, center, jobs=jobs, progress=progress)
-    weights = _calibrated(template, learned, problems, frames, learner, command, jobs)
+    weights = _calibrated(template, learned, problems, frames, learner, center, command, jobs)
     if not with_leave_one_out or weights.training is None:
         return weights
     left_out = leave_one_out(learner, problems, [f.name for f in frames], learned, center, jobs)
@@ -87,6 +88,7 @@ def _calibrated(
     problems: ExactProblems,
     frames: Sequence[SeenFrame],
     learner: ExactLearner,
+    center: NDArray[np.float64],
     command: str,
     jobs: int,
 ) -> LearnedWeights:
@@ -96,8 +98,11 @@ def _calibrated(
     loose = _as_weights(template, learned, learner, command, len(frames), scores[0], temperature)
     understood = understand_all(template, loose, frames, {"search": "exact"}, jobs)
     accept_score = best_accept_score(understood, scores)
-    verdicts = [verdict for one in understood for verdict in part_verdicts(one.at_least(accept_score))]
-    return msgspec.structs.replace(loose, accept_score=accept_score, calibration=fit_calibration(verdicts))
+    chosen = msgspec.structs.replace(loose, accept_score=accept_score)
+    # The line is fitted to frames that the weights do not know: what they know they get right too often.
+    held_out = understand_held_out(learner, problems, frames, learned, chosen, center, jobs)
+    verdicts = [verdict for one in held_out for verdict in part_verdicts(one)]
+    return msgspec.structs.replace(chosen, calibration=fit_calibration(verdicts))
 
 
 def _as_weights(
