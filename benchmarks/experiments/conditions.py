@@ -39,7 +39,7 @@ COLUMNS = ("boxes", "missed %", "flap %", "full %")
 def run(lab: Lab) -> Report:
     """All sweeps, then the drawn frames in bins."""
     count, test_count = lab.size((SWEEP_FRAMES, TEST_FRAMES), (1, 3))
-    models = [load_object_model(name, planes="ransac")[1] for name in TEMPLATE_NAMES]
+    models = [load_object_model(name, shipped="ransac")[1] for name in TEMPLATE_NAMES]
     swept = {name: _sweep(lab, models, name, count) for name in SWEEPS}
     tables = [Table(f"{name[0].upper()}{name[1:]}:", (name, *COLUMNS), rows) for name, rows in swept.items()]
     return Report(
