@@ -85,6 +85,13 @@ impl ObjectModel {
     }
 }
 
+/// Refuses settings of the search that do not exist or do not fit, by name.
+#[pyfunction]
+#[pyo3(signature = (**search))]
+fn check_search(search: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+    search_settings(search).map(|_| ())
+}
+
 /// What was understood of a cloud.
 #[pyclass(frozen, module = "boxwright._core")]
 pub struct Answer {
@@ -180,6 +187,7 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<Template>()?;
     m.add_class::<ObjectModel>()?;
     m.add_class::<Answer>()?;
+    m.add_function(wrap_pyfunction!(check_search, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
     m.add_function(wrap_pyfunction!(understand, m)?)
 }

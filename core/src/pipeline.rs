@@ -13,6 +13,7 @@ use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
 const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
+const MORE: &str = "raise max_nodes";
 
 /// The objects of a scene, best first, and which of their parts each point belongs to.
 #[derive(Debug, Clone)]
@@ -74,9 +75,11 @@ pub fn understand(
 ) -> Result<Answer> {
     let start = Instant::now();
     let mut found: Vec<(SegmentSet, FoundObject)> = Vec::new();
+    let mut missed: Vec<f64> = Vec::new();
     for set in SegmentSet::by_group(scene) {
-        let objects = find_objects(models, &set, settings)?;
-        found.extend(objects.into_iter().map(|object| (set.clone(), object)));
+        let of_group = find_objects(models, &set, settings)?;
+        missed.extend(of_group.missed);
+        found.extend(of_group.objects.into_iter().map(|object| (set.clone(), object)));
     }
     // A stable sort: groups keep their order among equal scores.
     found.sort_by(|a, b| b.1.candidate.score.total_cmp(&a.1.candidate.score));
@@ -91,12 +94,22 @@ pub fn understand(
         free_space: false,
         stage_seconds: Vec::new(),
     };
+    answer.warnings.extend(missed.iter().map(|score| {
+        format!(
+            "a search for more objects ended without a proof: one of score {score:.3} at most may be missing; {MORE}"
+        )
+    }));
     for (set, object) in &found {
         let ObjectModel { template, weights, .. } = &models[object.model];
         let (built, assignment) = build_object(template, weights, scene, set, object);
         if built.pose.is_none() && template.body != Body::Free {
             let number = answer.objects.len();
             answer.warnings.push(format!("object {number} ({}): {NO_POSE}", template.name));
+        }
+        if settings.search == SearchMethod::Exact && object.gap > 0.0 {
+            let (number, gap) = (answer.objects.len(), object.gap);
+            let what = format!("the search ended without a proof, another assignment may score {gap:.3} more");
+            answer.warnings.push(format!("object {number} ({}): {what}; {MORE}", template.name));
         }
         answer.add(built, scene, set, &assignment);
     }

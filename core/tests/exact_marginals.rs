@@ -130,6 +130,28 @@ fn what_is_left_out_is_bounded() {
 }
 
 #[test]
+fn a_probability_alone_is_as_far_off_as_it_says() {
+    let template = Template::from_toml(CARTON).unwrap();
+    let weights = weights_of_one(&template);
+    let mut random = Random::new(34);
+    let (mut cases, mut uncertain) = (0, 0);
+    for k in 0..60 {
+        let tables = random_tables(&template, &mut random, 4);
+        let temperature = [0.1, 0.3, 1.0][k % 3];
+        let (probability, _) = by_enumeration(&template, &weights, &tables, temperature);
+        let best = best_of(&template, &weights, &tables);
+        let settings = ExactSettings { max_sum_nodes: [5, 50, 5000][k / 3 % 3], ..ExactSettings::default() };
+        let told = marginals(&template, &weights, &tables, &[false; 4], &best, temperature, &settings).unwrap();
+        let (value, error) = (told.probability, told.probability_error);
+        assert!((value - probability).abs() <= error + 1e-9, "{value} within {error} against {probability}");
+        uncertain += usize::from(error > settings.sum_tolerance);
+        cases += 1;
+    }
+    assert_eq!(cases, 60);
+    assert!((5..50).contains(&uncertain), "{uncertain}");
+}
+
+#[test]
 fn spent_nodes_are_told() {
     let template = Template::from_toml(CARTON).unwrap();
     let weights = weights_of_one(&template);

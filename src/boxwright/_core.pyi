@@ -199,6 +199,9 @@ class Answer:
     @property
     def stage_seconds(self) -> dict[str, float]: ...
 
+def check_search(**search: float | str) -> None:
+    """Refuses settings of the search that do not exist or do not fit, by name: ValueError."""
+
 def infer(
     points: NDArray[np.float32],
     width: int,

@@ -90,6 +90,26 @@ def test_infer_tells_proof_and_probability(tmp_path) -> None:
 
 def test_search_settings_that_do_not_exist_are_refused() -> None:
     cloud = Cloud(points=np.zeros((1, 3), np.float32), width=1, height=1)
-    for search in ({"search": "guess"}, {"max_noodles": 3}, {"max_nodes": "many"}):
-        with pytest.raises(ValueError, match="search settings"):
+    for search, named in (({"search": "guess"}, "search: "), ({"max_noodles": 3}, ""), ({"max_nodes": "many"}, "")):
+        with pytest.raises(ValueError, match=f"^search settings: {named}"):
             boxwright.infer(cloud, search=search)
+
+
+def test_a_search_that_ends_without_a_proof_is_told() -> None:
+    frame = make_frame("carton", seed=2, boxes=1)
+    cloud = Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=(0.0, 0.0, 0.0))
+    search = {"search": "exact", "max_nodes": 0, "max_sweeps": 1}
+    model = boxwright.infer(cloud, templates=("carton",), search=search).model
+    ended = [o.inference for o in model.objects if o.inference.status == "gap"]
+    assert ended
+    assert all(inference.gap is not None and inference.gap > 0.0 for inference in ended)
+    told = [line for line in model.warnings if "without a proof" in line and "raise max_nodes" in line]
+    assert len(told) >= len(ended)
+
+
+def test_weights_of_another_template_are_refused_by_name(tmp_path) -> None:
+    path = tmp_path / "weights.json"
+    load_weights("cake_box").save(path)
+    cloud = Cloud(points=np.zeros((1, 3), np.float32), width=1, height=1)
+    with pytest.raises(ValueError, match=r"weights\.json: template: weights of \"cake_box\" do not fit \"carton\""):
+        boxwright.infer(cloud, templates=("carton",), weights=path)

@@ -42,16 +42,29 @@ pub struct FoundObject {
 /// Assignments that are ranked for each object: the best may be refused for what it lacks.
 const RANKED: usize = 20;
 
+/// The objects of a segment set, best first, and where the search for more ended without a proof.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FoundObjects {
+    pub objects: Vec<FoundObject>,
+    /// What an object that was not found could score at most; none where it is proven that there is no more.
+    pub missed: Option<f64>,
+}
+
 /// Takes objects out of the segments, best first, until none reaches its weights' `accept_score`. No segment is used
 /// twice; of models that score the same the first one wins.
 ///
 /// # Errors
 /// What the exact search refuses: values that are no finite numbers.
-pub fn find_objects(models: &[ObjectModel], set: &SegmentSet, settings: &SearchSettings) -> Result<Vec<FoundObject>> {
+pub fn find_objects(models: &[ObjectModel], set: &SegmentSet, settings: &SearchSettings) -> Result<FoundObjects> {
     let tables: Vec<FeatureTables> = models.iter().map(|model| FeatureTables::new(&model.template, set)).collect();
     let mut taken = vec![false; set.len()];
-    let mut found = Vec::new();
-    while let Some(mut object) = best_object(models, &tables, &taken, settings)? {
+    let mut found = FoundObjects::default();
+    loop {
+        let (best, missed) = best_object(models, &tables, &taken, settings)?;
+        let Some(mut object) = best else {
+            found.missed = missed;
+            return Ok(found);
+        };
         if settings.search == SearchMethod::Exact {
             let number = object.model;
             tell_probabilities(&mut object, &models[number], &tables[number], &taken, &settings.exact)?;
@@ -59,22 +72,27 @@ pub fn find_objects(models: &[ObjectModel], set: &SegmentSet, settings: &SearchS
         for segment in object.candidate.assignment.iter().flatten() {
             taken[*segment] = true;
         }
-        found.push(object);
+        found.objects.push(object);
     }
-    Ok(found)
 }
 
+/// The best object of all models; without one, what was perhaps missed.
 fn best_object(
     models: &[ObjectModel],
     tables: &[FeatureTables],
     taken: &[bool],
     settings: &SearchSettings,
-) -> Result<Option<FoundObject>> {
+) -> Result<(Option<FoundObject>, Option<f64>)> {
     let mut best: Option<FoundObject> = None;
+    let mut missed: Option<f64> = None;
     for (number, (model, tables)) in models.iter().zip(tables).enumerate() {
         let contender = match settings.search {
             SearchMethod::Staged => staged_contender(model, tables, taken, &settings.staged),
-            SearchMethod::Exact => exact_contender(model, tables, taken, &settings.exact)?,
+            SearchMethod::Exact => {
+                let (contender, unseen) = exact_contender(model, tables, taken, &settings.exact)?;
+                missed = [missed, unseen].into_iter().flatten().reduce(f64::max);
+                contender
+            }
         };
         let Some(Contender { candidate, gap, alternatives }) = contender else { continue };
         if best.as_ref().is_none_or(|best| candidate.score > best.candidate.score) {
@@ -91,7 +109,11 @@ fn best_object(
             });
         }
     }
-    Ok(best)
+    if let (Some(best), Some(unseen)) = (&mut best, missed) {
+        // Another model's search may have left more open than this one's.
+        best.gap = best.gap.max(unseen - best.candidate.score);
+    }
+    Ok((best, missed))
 }
 
 /// A model's best assignment that its template accepts and that scores enough.
@@ -118,18 +140,19 @@ fn staged_contender(
     (candidate.score >= model.weights.accept_score).then_some(Contender { candidate, gap, alternatives })
 }
 
+/// With it, what an assignment that the search left unseen could score.
 fn exact_contender(
     model: &ObjectModel,
     tables: &FeatureTables,
     taken: &[bool],
     settings: &ExactSettings,
-) -> Result<Option<Contender>> {
+) -> Result<(Option<Contender>, Option<f64>)> {
     let (template, weights) = (&model.template, &model.weights);
     let rules = Rules { most: RANKED, floor: weights.accept_score, accept: Some(&template.accept) };
     let solution = solve(template, weights, tables, taken, rules, settings)?;
     let (gap, alternatives) = (solution.gap, solution.candidates.len().saturating_sub(1));
     let first = solution.candidates.into_iter().next();
-    Ok(first.map(|candidate| Contender { candidate, gap, alternatives }))
+    Ok((first.map(|candidate| Contender { candidate, gap, alternatives }), solution.unseen))
 }
 
 /// The probabilities of the object's assignment among all of its template, and of its parts; none where the sums would
@@ -144,6 +167,7 @@ fn tell_probabilities(
     let (template, weights) = (&model.template, &model.weights);
     let reference = &object.candidate.assignment;
     let sums = marginals(template, weights, tables, taken, reference, weights.temperature, settings)?;
+    object.probability = (sums.probability_error <= settings.sum_tolerance).then_some(sums.probability);
     if sums.unseen > settings.sum_tolerance {
         return Ok(());
     }
@@ -153,6 +177,6 @@ fn tell_probabilities(
             by_segment[*s] = weights.calibration.apply(row[s + 1]);
         }
     }
-    (object.probability, object.part_probability) = (Some(sums.probability), by_segment);
+    object.part_probability = by_segment;
     Ok(())
 }

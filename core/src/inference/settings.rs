@@ -34,7 +34,8 @@ impl SearchSettings {
     /// Names a setting that does not exist or a value of the wrong kind.
     pub fn with_overrides(mut overrides: Map<String, Value>) -> Result<Self> {
         let refused = |error: serde_json::Error| InputError::new(error.to_string()).in_source("search settings");
-        let search = overrides.remove("search").map(serde_json::from_value).transpose().map_err(refused)?;
+        let search = overrides.remove("search").map(serde_json::from_value).transpose();
+        let search = search.map_err(|error| refused(error).at("search"))?;
         let (exact, staged) = overrides.into_iter().partition(|(name, _)| OF_EXACT.contains(&name.as_str()));
         Ok(Self {
             search: search.unwrap_or_default(),

@@ -97,6 +97,7 @@ def load_object_model(
         raise ValueError(
             f"{template}: no weights are shipped for {loaded.name!r}; train some and name them with --weights"
         )
+    _core.check_search(**search)
     path = _weights_path(loaded.name if weights is None else weights, shipped)
     try:
         return loaded, _core.ObjectModel(loaded, _read_text(path), **search)

@@ -4,7 +4,7 @@ use super::factors::{Factors, Pair};
 
 /// No assignment in the domains scores more (eq. 42), once every pair was shaken.
 pub fn upper_bound(factors: &Factors) -> f64 {
-    factors.unary.iter().map(|values| maximum(values)).sum()
+    factors.unary.iter().map(|values| maximum(values)).sum::<f64>() + factors.prices.iter().sum::<f64>()
 }
 
 /// One pass over all pairs; lowers the bound or keeps it.

@@ -2,8 +2,8 @@
 
 use crate::inference::potentials::Potentials;
 
-/// A table between two parts over their domains, row by row: `values[i * domain of second + j]`. No part's segment is the
-/// other's: there the table holds minus infinity.
+/// A table between two tied parts over their domains, row by row: `values[i * domain of second + j]`. No part's segment is
+/// the other's: there the table holds minus infinity.
 #[derive(Debug, Clone)]
 pub struct Pair {
     pub first: usize,
@@ -11,21 +11,19 @@ pub struct Pair {
     pub values: Vec<f64>,
 }
 
-/// Tables that sum to J(G) for every assignment in the domains (eq. 41).
+/// Tables that, with the prices, sum to J(G) or more for every assignment in the domains (eq. 41, 72).
 #[derive(Debug, Clone)]
 pub struct Factors {
     /// States that part `p` may still take, ascending; an undecided part may always stay empty: state 0, in place 0.
     pub domains: Vec<Vec<usize>>,
     /// `unary[p][i]`: of `domains[p][i]`.
     pub unary: Vec<Vec<f64>>,
-    /// One for each two parts, tied or not: no two of them take the same segment. In the order of `pair_number`.
+    /// One for each two parts that a relation ties.
     pub pairs: Vec<Pair>,
-}
-
-/// Where the table of two parts stands.
-pub fn pair_number(p: usize, q: usize) -> usize {
-    let (first, second) = (p.min(q), p.max(q));
-    second * second.saturating_sub(1) / 2 + first
+    /// `numbers[p * parts + q]`: the pair of parts `p` and `q`.
+    numbers: Vec<Option<usize>>,
+    /// What each state costs whoever takes it; already taken off `unary`.
+    pub prices: Vec<f64>,
 }
 
 impl Factors {
@@ -34,23 +32,33 @@ impl Factors {
         let parts = potentials.unary.len();
         let domain: Vec<usize> = (0..potentials.states).filter(|&state| usable[state]).collect();
         let unary = potentials.unary.iter().map(|values| domain.iter().map(|&state| values[state]).collect());
-        let mut pairs = Vec::with_capacity(parts * parts.saturating_sub(1) / 2);
+        let (mut pairs, mut numbers) = (Vec::new(), vec![None; parts * parts]);
         for second in 1..parts {
             for first in 0..second {
-                pairs.push(Pair { first, second, values: pair_table(potentials, first, second, &domain) });
+                let edge = potentials.edges_of[first].iter().find(|&&k| potentials.other_end(k, first) == second);
+                let Some(&edge) = edge else { continue };
+                numbers[first * parts + second] = Some(pairs.len());
+                numbers[second * parts + first] = Some(pairs.len());
+                pairs.push(Pair { first, second, values: pair_table(potentials, edge, first, &domain) });
             }
         }
-        Self { unary: unary.collect(), domains: vec![domain; parts], pairs }
+        let prices = vec![0.0; potentials.states];
+        Self { unary: unary.collect(), domains: vec![domain; parts], pairs, numbers, prices }
     }
 
-    /// What the choice `place` of `part` adds to each choice `j` of `other`: `values[start + j * step]`.
-    pub fn gains(&self, part: usize, place: usize, other: usize) -> (&[f64], usize) {
-        let pair = &self.pairs[pair_number(part, other)];
+    pub fn tied(&self, p: usize, q: usize) -> bool {
+        self.numbers[p * self.domains.len() + q].is_some()
+    }
+
+    /// What the choice `place` of `part` adds to each choice `j` of `other`: `values[start + j * step]`; none where no
+    /// relation ties the two.
+    pub fn gains(&self, part: usize, place: usize, other: usize) -> Option<(&[f64], usize)> {
+        let pair = &self.pairs[self.numbers[part * self.domains.len() + other]?];
         let width = self.domains[pair.second].len();
-        match pair.first == part {
+        Some(match pair.first == part {
             true => (&pair.values[place * width..], 1),
             false => (&pair.values[place..], width),
-        }
+        })
     }
 
     pub fn scale(&mut self, factor: f64) {
@@ -66,10 +74,17 @@ impl Factors {
             return false;
         }
         for pair in &mut self.pairs {
-            let (rows, columns) = (&kept[pair.first], &kept[pair.second]);
-            let width = self.domains[pair.second].len();
-            let rows = rows.iter().map(|&i| &pair.values[i * width..(i + 1) * width]);
-            pair.values = rows.flat_map(|row| columns.iter().map(|&j| row[j])).collect();
+            let (rows, columns, width) = (&kept[pair.first], &kept[pair.second], self.domains[pair.second].len());
+            if rows.len() == self.domains[pair.first].len() && columns.len() == width {
+                continue;
+            }
+            // In place: nothing moves towards the end.
+            for (i, &row) in rows.iter().enumerate() {
+                for (j, &column) in columns.iter().enumerate() {
+                    pair.values[i * columns.len() + j] = pair.values[row * width + column];
+                }
+            }
+            pair.values.truncate(rows.len() * columns.len());
         }
         for (p, places) in kept.iter().enumerate() {
             self.domains[p] = places.iter().map(|&i| self.domains[p][i]).collect();
@@ -79,13 +94,13 @@ impl Factors {
     }
 }
 
-fn pair_table(potentials: &Potentials, first: usize, second: usize, domain: &[usize]) -> Vec<f64> {
-    let edge = potentials.edges_of[first].iter().copied().find(|&k| potentials.other_end(k, first) == second);
-    let mut values = vec![0.0; domain.len() * domain.len()];
-    for (row, &a) in values.chunks_exact_mut(domain.len()).zip(domain) {
-        if let Some(k) = edge {
-            row.iter_mut().zip(domain).for_each(|(value, &b)| *value = potentials.edge_score(k, first, a, b));
-        }
+fn pair_table(potentials: &Potentials, edge: usize, first: usize, domain: &[usize]) -> Vec<f64> {
+    let mut values = Vec::with_capacity(domain.len() * domain.len());
+    let (edge, states) = (&potentials.edges[edge], potentials.states);
+    // One step along the second part's states.
+    let (row_step, step) = if edge.first == first { (states, 1) } else { (1, states) };
+    for &a in domain {
+        values.extend(domain.iter().map(|&b| edge.values[a * row_step + b * step]));
     }
     for (place, _) in domain.iter().enumerate().filter(|(_, &state)| state != 0) {
         values[place * domain.len() + place] = f64::NEG_INFINITY;

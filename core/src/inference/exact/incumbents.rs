@@ -19,8 +19,12 @@ pub fn dive(problem: &Problem, factors: &Factors, shortlist: &mut Shortlist) {
         let (_, place) = top(choices(part));
         states[part] = factors.domains[part][place];
         for &p in &open {
-            let (gains, step) = factors.gains(part, place, p);
-            values[p].iter_mut().zip(gains.iter().step_by(step)).for_each(|(value, gain)| *value += gain);
+            if let Some((gains, step)) = factors.gains(part, place, p) {
+                values[p].iter_mut().zip(gains.iter().step_by(step)).for_each(|(value, gain)| *value += gain);
+            }
+            if let (1.., Ok(taken)) = (states[part], factors.domains[p].binary_search(&states[part])) {
+                values[p][taken] = f64::NEG_INFINITY;
+            }
         }
     }
     problem.offer(&problem.symmetries.leader(&states), shortlist);

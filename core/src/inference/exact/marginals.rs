@@ -15,12 +15,14 @@ const SWEEPS: usize = 10;
 /// Probabilities under P(G) proportional to exp(J(G) / T) (eq. 49).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Marginals {
-    /// Of the reference assignment and its symmetric copies together.
+    /// Of the reference assignment and its symmetric copies together: the middle of what it can be.
     pub probability: f64,
+    /// The true probability is no farther from `probability` than this (eq. 73).
+    pub probability_error: f64,
     /// `parts[p][state]`: that part `p` is empty (state 0) or takes segment `state - 1`, each assignment turned to the copy
     /// that agrees most with the reference. Each row sums to 1.
     pub parts: Vec<Vec<f64>>,
-    /// No probability told is farther than this from the true one (eq. 51).
+    /// No probability in `parts` is farther than this from the true one (eq. 51).
     pub unseen: f64,
     pub nodes: u64,
 }
@@ -57,8 +59,15 @@ pub fn marginals(
 
     let summed = in_passes(&summer, highest, settings);
     let (total, unseen) = (summed.total, summed.unseen_share());
+    let most = summed.reference / total;
     let parts = summed.parts.into_iter().map(|row| row.into_iter().map(|mass| mass / total).collect());
-    Ok(Marginals { probability: summed.reference / total, parts: parts.collect(), unseen, nodes: summed.nodes })
+    Ok(Marginals {
+        probability: most * (1.0 - 0.5 * unseen),
+        probability_error: 0.5 * most * unseen,
+        parts: parts.collect(),
+        unseen,
+        nodes: summed.nodes,
+    })
 }
 
 /// Looks into ever lighter branches until what is left out is within the tolerance or the budget is spent.

@@ -6,6 +6,7 @@ mod checks;
 mod factors;
 mod incumbents;
 mod marginals;
+mod prices;
 mod problem;
 mod search;
 mod settings;

@@ -32,12 +32,9 @@ impl Problem<'_> {
         }
     }
 
-    /// False: whatever the undecided parts take, the assignment is not wanted, or a symmetric copy stands for it.
-    pub fn is_open(&self, states: &[usize]) -> bool {
-        self.symmetries.may_lead(states) && self.rules.accept.is_none_or(|accept| self.may_allow(accept, states))
-    }
-
-    fn may_allow(&self, accept: &Accept, states: &[usize]) -> bool {
+    /// False: whatever the undecided parts take, the assignment is not wanted.
+    pub fn may_allow(&self, states: &[usize]) -> bool {
+        let Some(accept) = self.rules.accept else { return true };
         let filled = states.iter().filter(|&&state| state != 0 && state != UNDECIDED).count();
         let undecided = states.iter().filter(|&&state| state == UNDECIDED).count();
         let reach = |parts: &[usize]| parts.iter().filter(|&&p| states[p] != 0).count();

@@ -28,6 +28,8 @@ struct Level {
     tops: Vec<(f64, usize)>,
     /// Choices of the part that is decided at this level, best first.
     order: Vec<(usize, f64)>,
+    /// The symmetries that leave the decided parts in their places.
+    group: Vec<usize>,
 }
 
 impl<'a> Search<'a> {
@@ -35,16 +37,20 @@ impl<'a> Search<'a> {
         let parts = factors.unary.len();
         let choices = factors.unary.iter().map(|values| values.iter().copied().enumerate());
         let root = Level {
-            decided: 0.0,
+            decided: factors.prices.iter().sum(),
             open: (0..parts).collect(),
             tops: choices.clone().map(top).collect(),
             choices: choices.map(Iterator::collect).collect(),
             order: Vec::new(),
+            group: problem.symmetries.all(),
         };
+        let below = Level { choices: vec![Vec::new(); parts], tops: root.tops.clone(), ..Level::default() };
+        let mut levels = vec![below; parts + 1];
+        levels[0] = root;
         Self {
             problem,
             factors,
-            levels: vec![root; parts + 1],
+            levels,
             states: vec![UNDECIDED; parts],
             nodes: 0,
             budget: 0,
@@ -62,7 +68,7 @@ impl<'a> Search<'a> {
     fn descend(&mut self, depth: usize, shortlist: &mut Shortlist) {
         let level = &self.levels[depth];
         if level.open.is_empty() {
-            self.problem.offer(&self.states, shortlist);
+            self.problem.offer(&self.problem.symmetries.leader(&self.states), shortlist);
             return;
         }
         let loose = level.decided + level.open.iter().map(|&p| level.tops[p].0).sum::<f64>();
@@ -76,27 +82,44 @@ impl<'a> Search<'a> {
         }
         // A choice that adds no more than this below its part's best cannot be wanted, and never will deeper down.
         let spare = shortlist.threshold() - loose;
-        let part = most_constrained(level, spare);
-        let others = loose - level.tops[part].0;
-        self.set_order(depth, part, spare);
+        let part = most_constrained(self.factors, level, spare);
+        let peers = self.problem.symmetries.orbit(&level.group, part);
+        self.set_order(depth, part, spare, peers.iter().any(|&peer| peer != part));
         for k in 0..self.levels[depth].order.len() {
-            let (place, value) = self.levels[depth].order[k];
-            if others + value <= shortlist.threshold() {
-                return;
+            let level = &self.levels[depth];
+            let (place, value) = level.order[k];
+            let others =
+                level.decided + level.open.iter().filter(|&&p| p != part).map(|&p| level.tops[p].0).sum::<f64>();
+            let slack = others + value - shortlist.threshold();
+            if slack <= 0.0 {
+                continue;
             }
             if self.nodes > self.budget {
                 self.unseen = self.unseen.max(others + value);
                 return;
             }
-            self.states[part] = self.factors.domains[part][place];
-            if self.problem.is_open(&self.states) {
+            let state = self.factors.domains[part][place];
+            self.states[part] = state;
+            if self.problem.may_allow(&self.states) {
                 self.nodes += 1;
-                let slack = others + value - shortlist.threshold();
-                if self.decide(depth, part, (place, value), spare, slack) {
+                if self.decide(depth, part, (place, value), slack) {
                     self.descend(depth + 1, shortlist);
                 }
             }
             self.states[part] = UNDECIDED;
+            // Every assignment that holds this state in a part of the orbit has a copy that was seen.
+            for &peer in peers.iter().filter(|&&peer| peer != part) {
+                self.leave_out(depth, peer, state);
+            }
+        }
+    }
+
+    fn leave_out(&mut self, depth: usize, part: usize, state: usize) {
+        let level = &mut self.levels[depth];
+        let domain = &self.factors.domains[part];
+        if let Some(at) = level.choices[part].iter().position(|&(place, _)| domain[place] == state) {
+            level.choices[part].remove(at);
+            level.tops[part] = top(level.choices[part].iter().copied());
         }
     }
 
@@ -120,17 +143,21 @@ impl<'a> Search<'a> {
         lost
     }
 
-    /// The choices of `part` that can be wanted, best first.
-    fn set_order(&mut self, depth: usize, part: usize, spare: f64) {
+    /// The choices of `part` that can be wanted, best first; where it has peers empty comes last: when all segments were
+    /// seen for the one, the others are empty too.
+    fn set_order(&mut self, depth: usize, part: usize, spare: f64, has_peers: bool) {
         let level = &mut self.levels[depth];
         let least = level.tops[part].0 + spare;
         level.order.clear();
         level.order.extend(level.choices[part].iter().filter(|(_, value)| *value > least));
-        level.order.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let is_last = |place: usize| has_peers && self.factors.domains[part][place] == 0;
+        level.order.sort_by(|a, b| is_last(a.0).cmp(&is_last(b.0)).then(b.1.total_cmp(&a.1)).then(a.0.cmp(&b.0)));
     }
 
-    /// Fills the next level: `part` takes the choice `(place, value)`. False: nothing wanted is left below, seen on the way.
-    fn decide(&mut self, depth: usize, part: usize, (place, value): (usize, f64), spare: f64, mut slack: f64) -> bool {
+    /// Fills the next level: `part` takes the choice `(place, value)`, `slack` more than is wanted at least. False: nothing
+    /// wanted is left below, seen on the way.
+    fn decide(&mut self, depth: usize, part: usize, (place, value): (usize, f64), mut slack: f64) -> bool {
+        let state = self.states[part];
         let (above, below) = self.levels.split_at_mut(depth + 1);
         let (level, next) = (&mut above[depth], &mut below[0]);
         next.decided = level.decided + value;
@@ -139,14 +166,20 @@ impl<'a> Search<'a> {
             if p == part {
                 continue;
             }
-            let (gains, step) = self.factors.gains(part, place, p);
-            let least = level.tops[p].0 + spare;
-            let live = level.choices[p].iter().filter(|(_, value)| *value > least);
+            let least = level.tops[p].0 - slack;
+            let domain = &self.factors.domains[p];
+            let free = level.choices[p].iter().filter(|(place, _)| state == 0 || domain[*place] != state);
             next.choices[p].clear();
-            next.choices[p].extend(live.map(|&(place, value)| (place, value + gains[place * step])));
+            match self.factors.gains(part, place, p) {
+                Some((gains, step)) => {
+                    let gained = free.map(|&(place, value)| (place, value + gains[place * step]));
+                    next.choices[p].extend(gained.filter(|(_, value)| *value > least));
+                }
+                None => next.choices[p].extend(free.filter(|(_, value)| *value > least)),
+            }
             next.tops[p] = top(next.choices[p].iter().copied());
             slack -= level.tops[p].0 - next.tops[p].0;
-            if slack <= 0.0 {
+            if next.choices[p].is_empty() || slack <= 0.0 {
                 // Who ends a branch first is asked first next time.
                 level.open[..=k].rotate_right(1);
                 return false;
@@ -154,6 +187,8 @@ impl<'a> Search<'a> {
         }
         next.open.clear();
         next.open.extend(level.open.iter().copied().filter(|&p| p != part));
+        next.group.clear();
+        next.group.extend(self.problem.symmetries.fixing(&level.group, part));
         true
     }
 }
@@ -174,12 +209,20 @@ pub fn regret(choices: &[(usize, f64)]) -> f64 {
     }
 }
 
-/// The open part with the fewest choices that can still be wanted.
-fn most_constrained(level: &Level, spare: f64) -> usize {
-    let count = |p: usize| {
+/// The open part with the fewest choices that can still be wanted, for each open part that it is tied to.
+fn most_constrained(factors: &Factors, level: &Level, spare: f64) -> usize {
+    let mut best = (f64::INFINITY, 0);
+    for &p in &level.open {
         let least = level.tops[p].0 + spare;
-        level.choices[p].iter().filter(|(_, value)| *value > least).count()
-    };
-    let counted = level.open.iter().map(|&p| (count(p), p));
-    counted.min().map_or(0, |(_, p)| p)
+        let count = level.choices[p].iter().filter(|(_, value)| *value > least).count();
+        if count <= 1 {
+            return p;
+        }
+        let ties = level.open.iter().filter(|&&q| factors.tied(p, q)).count();
+        let cost = count as f64 / (1 + ties) as f64;
+        if cost < best.0 {
+            best = (cost, p);
+        }
+    }
+    best.1
 }

@@ -24,6 +24,8 @@ pub struct Solution {
     /// No wanted assignment that is not listed scores more than the first of the list plus this; 0 where optimal, infinite
     /// where nothing was found in time.
     pub gap: f64,
+    /// No wanted assignment that the search left unseen scores more; none where it left none.
+    pub unseen: Option<f64>,
     /// Nodes visited.
     pub nodes: u64,
 }
@@ -59,5 +61,5 @@ pub fn solve(
     let is_optimal = unseen == f64::NEG_INFINITY;
     let best = candidates.first().map_or(f64::NEG_INFINITY, |c| c.score);
     let gap = if is_optimal { 0.0 } else { (unseen - best).max(0.0) };
-    Ok(Solution { candidates, is_optimal, gap, nodes })
+    Ok(Solution { candidates, is_optimal, gap, unseen: (!is_optimal).then_some(unseen), nodes })
 }

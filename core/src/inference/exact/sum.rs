@@ -89,12 +89,16 @@ impl Run<'_> {
         };
         let (part, choices) = &open[at];
         for &(place, value) in choices {
-            self.states[*part] = self.summer.factors.domains[*part][place];
+            let state = self.summer.factors.domains[*part][place];
+            self.states[*part] = state;
             if self.summer.symmetries.may_lead(&self.states) {
                 let rest = open.iter().enumerate().filter(|(k, _)| *k != at).map(|(_, (p, choices))| {
-                    let (gains, step) = self.summer.factors.gains(*part, place, *p);
-                    let weighed = choices.iter().map(|&(j, value)| (j, value + gains[j * step]));
-                    (*p, weighed.filter(|(_, value)| *value > f64::NEG_INFINITY).collect())
+                    let domain = &self.summer.factors.domains[*p];
+                    let free = choices.iter().filter(|(j, _)| state == 0 || domain[*j] != state);
+                    match self.summer.factors.gains(*part, place, *p) {
+                        Some((gains, step)) => (*p, free.map(|&(j, value)| (j, value + gains[j * step])).collect()),
+                        None => (*p, free.copied().collect()),
+                    }
                 });
                 self.descend(decided + value, &rest.collect());
             }

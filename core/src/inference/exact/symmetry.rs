@@ -35,6 +35,21 @@ impl Symmetries {
         })
     }
 
+    /// Their numbers, the identity left out.
+    pub fn all(&self) -> Vec<usize> {
+        (0..self.sources.len()).collect()
+    }
+
+    /// The parts whose segment `part` takes under one of `group`; twice where two of them agree.
+    pub fn orbit(&self, group: &[usize], part: usize) -> Vec<usize> {
+        group.iter().map(|&k| self.sources[k][part]).collect()
+    }
+
+    /// Those of `group` that leave `part` in its place.
+    pub fn fixing<'a>(&'a self, group: &'a [usize], part: usize) -> impl Iterator<Item = usize> + 'a {
+        group.iter().copied().filter(move |&k| self.sources[k][part] == part)
+    }
+
     /// The last of the assignment's copies in the order of states.
     pub fn leader(&self, states: &[usize]) -> Vec<usize> {
         let mut best = states.to_vec();

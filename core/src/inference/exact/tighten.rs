@@ -3,6 +3,7 @@
 use super::ascent::{maximum, sweep, upper_bound};
 use super::factors::Factors;
 use super::incumbents::{climb, dive};
+use super::prices::bid;
 use super::problem::Problem;
 use super::shortlist::Shortlist;
 
@@ -17,6 +18,7 @@ pub fn tighten(problem: &Problem, factors: &mut Factors, shortlist: &mut Shortli
     let mut last_bound = f64::INFINITY;
     for k in 0..max_sweeps {
         sweep(factors, &mut column);
+        bid(factors);
         let bound = upper_bound(factors);
         if k % LOOK_EVERY == 0 {
             dive(problem, factors, shortlist);
