@@ -82,7 +82,8 @@ fn in_passes(summer: &Summer, highest: f64, settings: &ExactSettings) -> Summed 
         least -= LOG_STEP;
         let next = summer.run(least, settings.max_sum_nodes - nodes);
         nodes += next.nodes;
-        if next.unseen_share() < best.unseen_share() {
+        // The smaller share unseen; told by products, for shares near 1 are equal by rounding.
+        if next.unseen * best.total < best.unseen * next.total {
             best = next;
         }
     }
