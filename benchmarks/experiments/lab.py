@@ -56,6 +56,10 @@ class Lab:
         """The same, as the paper's front end sees them."""
         return [look.ransac for look in self.looks(sequence, count)]
 
+    def passing_frames(self, sequence: Sequence, count: int) -> list[SeenFrame]:
+        """Frames that no other experiment asks for: not kept, since each holds megabytes."""
+        return list(ordered_map(lambda index: sequence.look(index).ransac, range(count), self.jobs))
+
     def learned(self, key: Hashable, template: _core.Template, frames: Items[SeenFrame]) -> LearnedWeights:
         """Weights by the paper's learning; those of an equal `key` are learned once."""
         if key not in self._made:
