@@ -18,7 +18,7 @@ TOO_MUCH = 1000.0
 def best_score(
     own: NDArray[np.float64], pairs: list[tuple[int, int]], tied: NDArray[np.float64]
 ) -> tuple[float, list[int], float]:
-    """The score of toulbar2's optimum, its states, and the seconds of its solver alone, without building the network.
+    """The score of toulbar2's optimum, its states, and its solver's processor seconds, without building the network.
 
     Arguments are those of `Problem.score_tables`. "Each segment once" stands in a table for each two parts: toulbar2
     takes longer with its all-different constraint.
@@ -38,9 +38,9 @@ def best_score(
             costs = -gains
             costs[np.arange(1, states), np.arange(1, states)] = TOO_MUCH
             network.AddFunction([f"part{first}", f"part{second}"], costs.ravel().tolist())
-    start = time.perf_counter()
+    start = time.process_time()
     solution = network.Solve()
-    seconds = time.perf_counter() - start
+    seconds = time.process_time() - start
     if solution is None:
         raise RuntimeError("toulbar2 found no assignment")
     return -float(solution[1]), [int(state) for state in solution[0]], seconds
