@@ -2,7 +2,9 @@ use boxwright_core::cloud::CloudView;
 use boxwright_core::geometry::Vec3;
 use boxwright_core::inference::SearchSettings;
 use boxwright_core::model;
+use boxwright_core::model::SegmentSet;
 use boxwright_core::perception::PerceptionSettings;
+use boxwright_core::pipeline::Bodies;
 use boxwright_core::{inference, pipeline};
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -144,7 +146,7 @@ fn model_list(models: &[PyRef<'_, ObjectModel>]) -> Vec<inference::ObjectModel> 
 
 /// From a cloud to its objects in one call.
 #[pyfunction]
-#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None))]
+#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false))]
 #[allow(clippy::too_many_arguments)]
 fn infer(
     py: Python<'_>,
@@ -156,6 +158,7 @@ fn infer(
     up: Option<[f64; 3]>,
     perception: Option<&Bound<'_, PyDict>>,
     search: Option<&Bound<'_, PyDict>>,
+    fitted: bool,
 ) -> PyResult<(Perception, Answer)> {
     let points = rows_of_three(&points, width, height)?;
     let settings = PerceptionSettings::with_overrides(named("perception", perception)?).map_err(to_python)?;
@@ -163,7 +166,9 @@ fn infer(
     let search = search_settings(search)?;
     let models = model_list(&models);
     let cloud = CloudView { points, width, height, viewpoint: viewpoint.map(Vec3::from) };
-    let (scene, answer) = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search)).map_err(to_python)?;
+    let bodies = if fitted { Bodies::Fitted(&cloud) } else { Bodies::Rectangles };
+    let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies));
+    let (scene, answer) = inferred.map_err(to_python)?;
     Ok((Perception { scene, point_count: points.len() }, Answer { answer }))
 }
 
@@ -178,8 +183,49 @@ fn understand(
 ) -> PyResult<Answer> {
     let search = search_settings(search)?;
     let models = model_list(&models);
-    let answer = py.detach(|| pipeline::understand(&perception.scene, perception.point_count, &models, &search));
+    let (scene, count) = (&perception.scene, perception.point_count);
+    let answer = py.detach(|| pipeline::understand(scene, count, &models, &search, Bodies::Rectangles));
     let answer = answer.map_err(to_python)?;
+    Ok(Answer { answer })
+}
+
+/// The objects that these assignments are, best as given: `assignments` (K, parts) of the perception's segments, -1 for none.
+#[pyfunction]
+#[pyo3(signature = (perception, points, width, height, model, assignments, viewpoint=None, fitted=true))]
+#[allow(clippy::too_many_arguments)]
+fn describe(
+    py: Python<'_>,
+    perception: &Perception,
+    points: PyReadonlyArray2<'_, f32>,
+    width: usize,
+    height: usize,
+    model: &ObjectModel,
+    assignments: Vec<Vec<i64>>,
+    viewpoint: Option<[f64; 3]>,
+    fitted: bool,
+) -> PyResult<Answer> {
+    let points = rows_of_three(&points, width, height)?;
+    let cloud = CloudView { points, width, height, viewpoint: viewpoint.map(Vec3::from) };
+    let (scene, parts) = (&perception.scene, model.model.template.parts.len());
+    if points.len() != perception.point_count {
+        let problem = format!("{} points; the perception is of {}", points.len(), perception.point_count);
+        return Err(PyValueError::new_err(problem));
+    }
+    let all: Vec<usize> = (0..scene.segments.len()).collect();
+    let set = SegmentSet::new(scene, &all);
+    let mut found = Vec::new();
+    for row in assignments {
+        let assignment: Vec<Option<usize>> = row.iter().map(|&s| usize::try_from(s).ok()).collect();
+        if assignment.len() != parts || assignment.iter().flatten().any(|&s| s >= scene.segments.len()) {
+            let problem =
+                format!("an assignment is {row:?}; it has {parts} of {} segments or -1", scene.segments.len());
+            return Err(PyValueError::new_err(problem));
+        }
+        found.push((set.clone(), inference::FoundObject::of_assignment(&model.model, &set, assignment)));
+    }
+    let bodies = if fitted { Bodies::Fitted(&cloud) } else { Bodies::Rectangles };
+    let models = std::slice::from_ref(&model.model);
+    let answer = py.detach(|| pipeline::describe(scene, points.len(), models, &found, bodies));
     Ok(Answer { answer })
 }
 
@@ -189,5 +235,6 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<Answer>()?;
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
+    m.add_function(wrap_pyfunction!(describe, m)?)?;
     m.add_function(wrap_pyfunction!(understand, m)?)
 }

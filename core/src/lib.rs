@@ -1,12 +1,13 @@
 //! boxwright's core: from a depth cloud to articulated objects.
 //!
 //! Layers, lowest first; each may use those above it in this list and no other:
-//! `error`, `geometry`, `cloud`, `perception`, `free_space`, `model`, `inference`, `body`, `pipeline`.
+//! `error`, `geometry`, `cloud`, `perception`, `free_space`, `model`, `inference`, `body`, `fit`, `pipeline`.
 //! The paper's equations are numbered in `docs/maths.md`; the code cites the number.
 
 pub mod body;
 pub mod cloud;
 pub mod error;
+pub mod fit;
 pub mod free_space;
 pub mod geometry;
 pub mod inference;

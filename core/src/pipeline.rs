@@ -5,12 +5,22 @@ use std::time::Instant;
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
 use crate::error::Result;
+use crate::fit::{fit_object, FitSettings};
 use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
 use crate::model::{Assignment, Body, SegmentSet};
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
+
+/// How an assignment becomes a body.
+#[derive(Debug, Clone, Copy)]
+pub enum Bodies<'a> {
+    /// Read off the segments' rectangles, as the paper's method does.
+    Rectangles,
+    /// Fitted to the readings of this cloud.
+    Fitted(&'a CloudView<'a>),
+}
 
 const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
 const MORE: &str = "raise max_nodes";
@@ -39,9 +49,10 @@ pub fn infer(
     perception: &PerceptionSettings,
     models: &[ObjectModel],
     search: &SearchSettings,
+    bodies: Bodies,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
-    let mut answer = understand(&scene, cloud.points.len(), models, search)?;
+    let mut answer = understand(&scene, cloud.points.len(), models, search, bodies)?;
     if search.search == SearchMethod::Exact {
         let start = Instant::now();
         let readings = Readings::new(cloud, perception);
@@ -72,6 +83,7 @@ pub fn understand(
     point_count: usize,
     models: &[ObjectModel],
     settings: &SearchSettings,
+    bodies: Bodies,
 ) -> Result<Answer> {
     let start = Instant::now();
     let mut found: Vec<(SegmentSet, FoundObject)> = Vec::new();
@@ -85,6 +97,38 @@ pub fn understand(
     found.sort_by(|a, b| b.1.candidate.score.total_cmp(&a.1.candidate.score));
     let inference_seconds = start.elapsed().as_secs_f64();
 
+    let mut answer = describe(scene, point_count, models, &found, bodies);
+    if settings.search == SearchMethod::Exact {
+        let unproven = unproven(models, &found, &missed);
+        answer.warnings.splice(0..0, unproven);
+    }
+    answer.stage_seconds.insert(0, ("inference", inference_seconds));
+    Ok(answer)
+}
+
+/// What the exact search left open, one line each.
+fn unproven(models: &[ObjectModel], found: &[(SegmentSet, FoundObject)], missed: &[f64]) -> Vec<String> {
+    let more = missed.iter().map(|score| {
+        format!(
+            "a search for more objects ended without a proof: one of score {score:.3} at most may be missing; {MORE}"
+        )
+    });
+    let better = found.iter().enumerate().filter(|(_, (_, object))| object.gap > 0.0).map(|(number, (_, object))| {
+        let (name, gap) = (&models[object.model].template.name, object.gap);
+        let what = format!("the search ended without a proof, another assignment may score {gap:.3} more");
+        format!("object {number} ({name}): {what}; {MORE}")
+    });
+    more.chain(better).collect()
+}
+
+/// The bodies of objects that are found, in their order.
+pub fn describe(
+    scene: &Scene,
+    point_count: usize,
+    models: &[ObjectModel],
+    found: &[(SegmentSet, FoundObject)],
+    bodies: Bodies,
+) -> Answer {
     let start = Instant::now();
     let mut answer = Answer {
         objects: Vec::new(),
@@ -94,27 +138,30 @@ pub fn understand(
         free_space: false,
         stage_seconds: Vec::new(),
     };
-    answer.warnings.extend(missed.iter().map(|score| {
-        format!(
-            "a search for more objects ended without a proof: one of score {score:.3} at most may be missing; {MORE}"
-        )
-    }));
-    for (set, object) in &found {
+    let mut fit_seconds = 0.0;
+    for (set, object) in found {
         let ObjectModel { template, weights, .. } = &models[object.model];
-        let (built, assignment) = build_object(template, weights, scene, set, object);
+        let (mut built, mut assignment) = build_object(template, weights, scene, set, object);
+        let name = format!("object {} ({})", answer.objects.len(), template.name);
         if built.pose.is_none() && template.body != Body::Free {
-            let number = answer.objects.len();
-            answer.warnings.push(format!("object {number} ({}): {NO_POSE}", template.name));
-        }
-        if settings.search == SearchMethod::Exact && object.gap > 0.0 {
-            let (number, gap) = (answer.objects.len(), object.gap);
-            let what = format!("the search ended without a proof, another assignment may score {gap:.3} more");
-            answer.warnings.push(format!("object {number} ({}): {what}; {MORE}", template.name));
+            answer.warnings.push(format!("{name}: {NO_POSE}"));
+        } else if let (Bodies::Fitted(cloud), Body::OpenBox(_)) = (bodies, &template.body) {
+            let start = Instant::now();
+            match fit_object(&built, template, scene, set, &assignment, cloud, &FitSettings::default()) {
+                Ok(fitted) => (built, assignment) = fitted,
+                Err(reason) => {
+                    answer.warnings.push(format!("{name}: its body is that of its rectangles, not fitted: {reason}"))
+                }
+            }
+            fit_seconds += start.elapsed().as_secs_f64();
         }
         answer.add(built, scene, set, &assignment);
     }
-    answer.stage_seconds = vec![("inference", inference_seconds), ("body", start.elapsed().as_secs_f64())];
-    Ok(answer)
+    answer.stage_seconds = vec![("body", start.elapsed().as_secs_f64() - fit_seconds)];
+    if let Bodies::Fitted(_) = bodies {
+        answer.stage_seconds.push(("fit", fit_seconds));
+    }
+    answer
 }
 
 impl Answer {

@@ -95,7 +95,7 @@ fn infer(template: &str, rectangles: Vec<Rectangle>) -> Answer {
     let settings = SearchSettings::default();
     let model = ObjectModel::new(template, weights, &settings.staged);
     let count = 10 * rectangles.len();
-    understand(&scene(rectangles), count, &[model], &settings).unwrap()
+    understand(&scene(rectangles), count, &[model], &settings, Bodies::Rectangles).unwrap()
 }
 
 #[test]

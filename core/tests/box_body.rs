@@ -8,7 +8,7 @@ use boxwright_core::body::ObjectAnswer;
 use boxwright_core::geometry::{Rectangle, Vec3};
 use boxwright_core::inference::{ObjectModel, SearchSettings};
 use boxwright_core::model::{Template, Weights};
-use boxwright_core::pipeline::understand;
+use boxwright_core::pipeline::{understand, Bodies};
 use common::{carton_rectangles, scene, unit_weights};
 
 const CARTON: &str = include_str!("../../src/boxwright/models/templates/carton.toml");
@@ -19,7 +19,7 @@ fn infer(rectangles: Vec<Rectangle>) -> ObjectAnswer {
     let settings = SearchSettings::default();
     let model = ObjectModel::new(template, weights, &settings.staged);
     let count = 10 * rectangles.len();
-    let mut answer = understand(&scene(rectangles), count, &[model], &settings).unwrap();
+    let mut answer = understand(&scene(rectangles), count, &[model], &settings, Bodies::Rectangles).unwrap();
     assert_eq!(answer.objects.len(), 1);
     answer.objects.remove(0)
 }

@@ -211,8 +211,24 @@ def infer(
     up: tuple[float, float, float] | None = None,
     perception: dict[str, float | str] | None = None,
     search: dict[str, float | str] | None = None,
+    fitted: bool = False,
 ) -> tuple[Perception, Answer]:
-    """From a cloud to its objects in one call. Raises ValueError where the cloud cannot be used, with the mend."""
+    """From a cloud to its objects in one call, bodies fitted or of rectangles. Raises ValueError where the cloud cannot be used, with the mend."""
+
+def describe(
+    perception: Perception,
+    points: NDArray[np.float32],
+    width: int,
+    height: int,
+    model: ObjectModel,
+    assignments: list[list[int]],
+    viewpoint: tuple[float, float, float] | None = None,
+    fitted: bool = True,
+) -> Answer:
+    """The objects of given assignments (K, parts) of the perception's segments, -1 for none; `points` are its cloud's.
+
+    Raises ValueError where the cloud is another or an assignment does not fit the model's template.
+    """
 
 def understand(
     perception: Perception, models: list[ObjectModel], search: dict[str, float | str] | None = None

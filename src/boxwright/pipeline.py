@@ -17,7 +17,7 @@ from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, 
 from boxwright.types import Cloud
 from boxwright.types.model import Model, Object, Seconds
 
-METHODS = ("paper", "exact")
+METHODS = ("paper", "exact", "fitted")
 """The ways through that are built."""
 
 DEFAULT_METHOD = "paper"
@@ -25,10 +25,14 @@ DEFAULT_METHOD = "paper"
 # Made once, at import: threads that make their first decoder of a type together have crashed.
 _OBJECT = msgspec.json.Decoder(Object)
 
-PLANES_OF_METHOD = {"paper": "ransac", "exact": "grid"}
+PLANES_OF_METHOD = {"paper": "ransac", "exact": "grid", "fitted": "grid"}
 """The front end of each method where the user names none, one of `_core.PLANES`: the paper's is part of its method."""
 
-SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {"paper": {"search": "staged"}, "exact": {"search": "exact"}}
+SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {
+    "paper": {"search": "staged"},
+    "exact": {"search": "exact"},
+    "fitted": {"search": "exact"},
+}
 """Settings of the search of each method, which a user may override."""
 
 
@@ -57,7 +61,8 @@ def infer(
     """Infers the articulated objects of a cloud.
 
     `method` "paper" is the pipeline of 2011; "exact" finds planes on the image grid, proves each object's assignment
-    best and tells how probable it and its parts are (docs/maths.md, "Exact inference"). `templates` compete for the
+    best and tells how probable it and its parts are (docs/maths.md, "Exact inference"); "fitted" does so and fits each
+    object's body to its readings ("The fitted body" there). `templates` compete for the
     segments: shipped names or paths of `.toml` files; `weights` names one file for a single template (the method's
     shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
     known. `roi` leaves out all points beyond the bounds. `planes` names the front end that finds the planes, one of
@@ -87,6 +92,7 @@ def infer(
         up=up,
         perception=chosen(planes),
         search=settings,
+        fitted=method == "fitted",
     )
     objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
     total = time.perf_counter() - start

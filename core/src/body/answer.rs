@@ -77,7 +77,16 @@ pub struct JointAnswer {
     pub axis: [f64; 3],
     pub position: f64,
     pub limits: [f64; 2],
-    pub sigma: Option<()>,
+    /// Told where a body was fitted.
+    pub sigma: Option<JointSigma>,
+}
+
+/// Standard deviations of a hinge: position rad, origin m, axis rad.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointSigma {
+    pub position: f64,
+    pub origin: [f64; 3],
+    pub axis: f64,
 }
 
 impl InferenceAnswer {

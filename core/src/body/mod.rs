@@ -8,5 +8,7 @@ mod free;
 mod hinge;
 mod ring;
 
-pub use answer::{InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer};
+pub use answer::{
+    InferenceAnswer, JointAnswer, JointSigma, ObjectAnswer, ParameterAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer,
+};
 pub use build::build_object;

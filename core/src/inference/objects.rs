@@ -5,7 +5,7 @@ use super::graph::SearchPlans;
 use super::settings::{SearchMethod, SearchSettings};
 use super::staged::{rank_staged, Candidate, StagedSettings};
 use crate::error::Result;
-use crate::model::{FeatureTables, SegmentSet, Template, Weights};
+use crate::model::{Assignment, FeatureTables, SegmentSet, Template, Weights};
 
 /// A template with weights and the way to search it: what competes for the segments.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +37,25 @@ pub struct FoundObject {
     pub probability: Option<f64>,
     /// For each segment of the set that has a part, the probability of that part; empty where `probability` is none.
     pub part_probability: Vec<f64>,
+}
+
+impl FoundObject {
+    /// An assignment that somebody else found: scored, not searched, so nothing is known of better ones.
+    pub fn of_assignment(model: &ObjectModel, set: &SegmentSet, assignment: Assignment) -> Self {
+        let tables = FeatureTables::new(&model.template, set);
+        let feature_vector = tables.feature_vector(&model.template, &assignment);
+        let score = feature_vector.iter().zip(&model.weights.values).map(|(value, weight)| value * weight).sum();
+        let candidate = Candidate { assignment, score };
+        Self {
+            model: 0,
+            candidate,
+            feature_vector,
+            gap: f64::INFINITY,
+            alternatives: 0,
+            probability: None,
+            part_probability: Vec::new(),
+        }
+    }
 }
 
 /// Assignments that are ranked for each object: the best may be refused for what it lacks.

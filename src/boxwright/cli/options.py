@@ -88,7 +88,8 @@ MethodOption = Annotated[
         "--method",
         callback=_known_method,
         metavar="NAME",
-        help="paper: as of 2011 (default). exact: planes of the image grid, exact search, probabilities.",
+        help="paper: as of 2011 (default). exact: planes of the image grid, exact search, probabilities. "
+        "fitted: exact, with bodies fitted to the readings.",
         rich_help_panel=MODEL,
     ),
 ]

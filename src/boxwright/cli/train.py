@@ -14,7 +14,11 @@ if TYPE_CHECKING:
     from boxwright.learning import SeenFrame
 
 
-LEARNER_OF_METHOD: dict[str, Literal["ridge", "margin", "likelihood"]] = {"paper": "ridge", "exact": "margin"}
+LEARNER_OF_METHOD: dict[str, Literal["ridge", "margin", "likelihood"]] = {
+    "paper": "ridge",
+    "exact": "margin",
+    "fitted": "margin",
+}
 
 
 def train(

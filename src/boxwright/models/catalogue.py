@@ -19,18 +19,21 @@ _WEIGHTS = msgspec.json.Decoder(LearnedWeights)
 
 EXACT = "exact"
 """What is shipped for the method of that name: templates with further terms, and weights for the default front end."""
+FITTED = "fitted"
+"""The method that adds fitted bodies to "exact": nothing is shipped for it alone."""
 
 
 def shipped_for(method: str, planes: str) -> str:
-    """What a method takes of what is shipped: "exact" its own, else that of the front end, one of `_core.PLANES`.
+    """What a method takes of what is shipped: "exact" and "fitted" that of "exact", else that of the front end, one of
+    `_core.PLANES`.
 
     Raises ValueError where the method's weights were learnt on another front end.
     """
-    if method != EXACT:
+    if method not in (EXACT, FITTED):
         return planes
     if planes != _core.DEFAULT_PLANES:
         raise ValueError(
-            f"method {EXACT!r}: its shipped weights are learnt on planes {_core.DEFAULT_PLANES!r}, not {planes!r};"
+            f"method {method!r}: its shipped weights are learnt on planes {_core.DEFAULT_PLANES!r}, not {planes!r};"
             " leave planes out, or name a template and its weights"
         )
     return EXACT

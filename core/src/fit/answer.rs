@@ -1,0 +1,122 @@
+//! A fitted body as `model.json` tells it.
+
+use std::collections::BTreeMap;
+
+use super::body::{FittedBody, Parameters};
+use super::forward::{corners, hinge, FittedHinge};
+use super::layout::{flap_names, shape_names, tuck_names, HEIGHT, LENGTH, PARAMETER_COUNT, RACK, THICKNESS, WIDTH};
+use super::roles::Role;
+use super::settings::FitSettings;
+use super::solve::Solution;
+use crate::body::{JointAnswer, JointSigma, ObjectAnswer, ParameterAnswer, PoseAnswer};
+use crate::model::Template;
+
+/// Step of the differences that carry the covariance to hinges, in rad or m: hinges are smooth over millimetres.
+const STEP: f64 = 1e-5;
+
+/// Fills in what the fit says. `roles` tells what each part is, `seen` which parts have readings.
+pub fn fill(
+    object: &mut ObjectAnswer,
+    template: &Template,
+    roles: &[(usize, Role)],
+    seen: &[bool],
+    solution: &Solution,
+    settings: &FitSettings,
+) {
+    let body = &solution.body;
+    let (length, width, height) = (body.get(LENGTH), body.get(WIDTH), body.get(HEIGHT));
+    let board = body.get(THICKNESS).max(0.0);
+    // Both pairs of walls stand a board farther out, square to themselves.
+    let grown = board / body.get(RACK).cos();
+    object.dimensions = Some([length, width, height]);
+    object.outer_dimensions = Some([length + grown, width + grown, height]);
+    object.thickness = Some(board);
+    object.pose = Some(pose(body));
+    object.parameters = parameters(roles, seen, solution, settings);
+    for &(part, role) in roles {
+        let is_fixed = matches!(role, Role::Base | Role::Side(_));
+        let answer = &mut object.parts[part];
+        answer.observed = seen[part];
+        answer.corners = (seen[part] || is_fixed).then(|| corners(body, role).map(Into::into));
+    }
+    object.joints = joints(template, roles, seen, solution, settings);
+}
+
+fn pose(body: &FittedBody) -> PoseAnswer {
+    let q = body.input_from_object.rotation;
+    PoseAnswer { position: body.input_from_object.translation.vector.into(), orientation: [q.i, q.j, q.k, q.w] }
+}
+
+/// Of the shape, and of the flaps and tuck flaps that were seen.
+fn parameters(
+    roles: &[(usize, Role)],
+    seen: &[bool],
+    solution: &Solution,
+    settings: &FitSettings,
+) -> BTreeMap<String, ParameterAnswer> {
+    let mut names = shape_names();
+    for &(part, role) in roles.iter().filter(|(part, _)| seen[*part]) {
+        match role {
+            Role::Flap(k) => names.extend(flap_names(k)),
+            Role::Tuck(k) if seen[part] => names.extend(tuck_names(k)),
+            _ => {}
+        }
+    }
+    let answer = |place: usize| {
+        let sigma = solution.covariance[(place, place)].sqrt() * settings.seen_scale;
+        ParameterAnswer { value: solution.body.get(place), sigma: Some(sigma) }
+    };
+    names.into_iter().map(|(place, name)| (name, answer(place))).collect()
+}
+
+fn joints(
+    template: &Template,
+    roles: &[(usize, Role)],
+    seen: &[bool],
+    solution: &Solution,
+    settings: &FitSettings,
+) -> Vec<JointAnswer> {
+    let role_of = |part: usize| roles.iter().find(|(p, _)| *p == part).map(|(_, role)| *role);
+    let of = |joint: &crate::model::Joint| {
+        let role = role_of(joint.child).filter(|_| seen[joint.child])?;
+        let found = hinge(&solution.body, role)?;
+        let child = &template.parts[joint.child].name;
+        let scale = if seen[joint.parent] { settings.seen_scale } else { settings.unseen_scale };
+        Some(JointAnswer {
+            name: format!("{child}_hinge"),
+            kind: "revolute",
+            parent: template.parts[joint.parent].name.clone(),
+            child: child.clone(),
+            origin: found.origin.into(),
+            axis: found.axis.into(),
+            position: found.position_rad,
+            limits: joint.limits_rad,
+            sigma: Some(hinge_sigma(solution, role, &found, scale)),
+        })
+    };
+    template.joints.iter().filter_map(of).collect()
+}
+
+/// The covariance carried over to a hinge (eq. 83): C' = D C D^T.
+fn hinge_sigma(solution: &Solution, role: Role, at: &FittedHinge, scale: f64) -> JointSigma {
+    let moved = |place: usize, step: f64| {
+        let mut by = Parameters::zeros();
+        by[place] = step;
+        hinge(&solution.body.moved(&by), role).unwrap_or(*at)
+    };
+    // Rows: origin x, y, z, axis x, y, z, position.
+    let mut by = nalgebra::DMatrix::zeros(7, PARAMETER_COUNT);
+    for place in 0..PARAMETER_COUNT {
+        let (ahead, behind) = (moved(place, STEP), moved(place, -STEP));
+        let origin = (ahead.origin - behind.origin) / (2.0 * STEP);
+        let axis = (ahead.axis - behind.axis) / (2.0 * STEP);
+        by.fixed_view_mut::<3, 1>(0, place).copy_from(&origin);
+        by.fixed_view_mut::<3, 1>(3, place).copy_from(&axis);
+        by[(6, place)] = (ahead.position_rad - behind.position_rad) / (2.0 * STEP);
+    }
+    let spread = &by * &solution.covariance * by.transpose();
+    let sigma = |i: usize| spread[(i, i)].max(0.0).sqrt() * scale;
+    // Of the axis the larger of the two ways it can lean would do; the root of both is on the safe side.
+    let axis = (spread[(3, 3)] + spread[(4, 4)] + spread[(5, 5)]).max(0.0).sqrt() * scale;
+    JointSigma { position: sigma(6), origin: [sigma(0), sigma(1), sigma(2)], axis }
+}

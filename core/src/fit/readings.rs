@@ -1,0 +1,161 @@
+//! What the segments of a box's parts tell of it: readings on faces, and where panels end.
+
+use super::body::FittedBody;
+use super::panel::{outward_coordinate, Panel};
+use super::roles::Role;
+use super::sensor::Sensor;
+use super::settings::FitSettings;
+use crate::geometry::{Plane, Rectangle, Vec3};
+use crate::perception::EdgeKind;
+
+/// The readings of one part's segment.
+#[derive(Debug, Clone, Copy)]
+pub struct PartSegment<'a> {
+    pub role: Role,
+    /// Normal towards the viewpoint where there is one.
+    pub plane: Plane,
+    pub rectangle: &'a Rectangle,
+    pub edges: [EdgeKind; 4],
+    /// Indices into the cloud.
+    pub points: &'a [u32],
+}
+
+/// A reading that lies on the part's face.
+#[derive(Debug, Clone, Copy)]
+pub struct FaceReading {
+    pub point: Vec3,
+    pub sigma_m: f64,
+}
+
+/// The outermost reading of a strip across one of the part's ends; the end lies `reach_m` beyond it, or farther where
+/// something hides it.
+#[derive(Debug, Clone, Copy)]
+pub struct EndReading {
+    pub point: Vec3,
+    pub end: usize,
+    pub reach_m: f64,
+    pub sigma_m: f64,
+    pub is_least: bool,
+    pub information: f64,
+}
+
+/// All that one part's readings tell.
+#[derive(Debug, Clone)]
+pub struct PartReadings {
+    pub role: Role,
+    /// Half boards from the middle to the face that is seen: 1 or -1 along the panel's normal, 0 where nobody knows.
+    pub face: f64,
+    pub faces: Vec<FaceReading>,
+    /// What one reading on the face counts, of 1: they share errors.
+    pub face_information: f64,
+    pub ends: Vec<EndReading>,
+}
+
+impl PartReadings {
+    pub fn new(segment: &PartSegment, start: &FittedBody, sensor: &Sensor, settings: &FitSettings) -> Self {
+        let panel = Panel::new(start, segment.role);
+        let face = if sensor.viewpoint.is_some() { facing(&panel, start, &segment.plane.normal) } else { 0.0 };
+        let count = segment.points.len();
+        let taken = count.min(settings.face_samples);
+        // In the order of the image the same steps go over the whole of it.
+        let faces: Vec<FaceReading> = (0..taken)
+            .map(|i| sensor.point(segment.points[(2 * i + 1) * count / (2 * taken)]))
+            .map(|point| FaceReading { point, sigma_m: sensor.sigma_m(&point, &segment.plane.normal, settings) })
+            .collect();
+        let information = (count as f64 / settings.readings_that_agree).min(settings.most_face_information);
+        let ends = (0..4).flat_map(|end| end_readings(segment, &panel, start, sensor, settings, end)).collect();
+        Self { role: segment.role, face, faces, face_information: information / taken.max(1) as f64, ends }
+    }
+}
+
+fn facing(panel: &Panel, start: &FittedBody, normal: &Vec3) -> f64 {
+    if (start.input_from_object * panel.normal()).dot(normal) >= 0.0 {
+        1.0
+    } else {
+        -1.0
+    }
+}
+
+/// Strips are at least this wide, pixels.
+const STRIP_PX: f64 = 3.0;
+/// Left out of an end where it meets its neighbours, share of its length.
+const CORNER_SHARE: f64 = 0.06;
+const LEAST_READINGS_OF_STRIP: usize = 3;
+
+fn end_readings(
+    segment: &PartSegment,
+    panel: &Panel,
+    start: &FittedBody,
+    sensor: &Sensor,
+    settings: &FitSettings,
+    end: usize,
+) -> Vec<EndReading> {
+    let (bounded, sign) = outward_coordinate(segment.role, end);
+    let axes = panel.axes().map(|axis| start.input_from_object * axis);
+    let (outward, across) = (axes[bounded] * sign, axes[1 - bounded]);
+    let kind = segment.edges[rectangle_side(segment.rectangle, &outward)];
+    let strips = Strips::new(segment, &across, sensor, settings);
+    let blur_m = if kind == EdgeKind::Crease { settings.crease_sigma_m } else { settings.edge_sigma_m };
+    let outermost = strips.outermost(segment.points, sensor, &across, &outward);
+    let information = (settings.most_end_information / outermost.len().max(1) as f64).min(1.0);
+    let reading = |point: Vec3| {
+        let pixel_m = sensor.pixel_m(&point, &outward);
+        EndReading {
+            point,
+            end,
+            reach_m: settings.last_pixel * pixel_m,
+            sigma_m: blur_m.hypot(pixel_m / 2.0),
+            is_least: matches!(kind, EdgeKind::Occluded | EdgeKind::Border),
+            information,
+        }
+    };
+    outermost.into_iter().map(reading).collect()
+}
+
+/// The rectangle's side that lies that way.
+fn rectangle_side(rectangle: &Rectangle, outward: &Vec3) -> usize {
+    let center = rectangle.center();
+    let agreement = |k: usize| {
+        let (a, b) = rectangle.edge(k);
+        ((a + b) / 2.0 - center).try_normalize(1e-9).map_or(-1.0, |direction| direction.dot(outward))
+    };
+    (1..4).fold(0, |best, k| if agreement(k) > agreement(best) { k } else { best })
+}
+
+/// Strips of equal width, side by side across an end.
+struct Strips {
+    low: f64,
+    width: f64,
+    count: usize,
+}
+
+impl Strips {
+    fn new(segment: &PartSegment, across: &Vec3, sensor: &Sensor, settings: &FitSettings) -> Self {
+        let along = segment.points.iter().map(|&i| sensor.point(i).dot(across));
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
+        let (low, high) = (low + CORNER_SHARE * (high - low), high - CORNER_SHARE * (high - low));
+        let pixel_m = sensor.pixel_m(&segment.rectangle.center(), across);
+        let fit = ((high - low) / (STRIP_PX * pixel_m)) as usize;
+        let count = fit.clamp(1, settings.end_strips);
+        Self { low, width: (high - low) / count as f64, count }
+    }
+
+    /// The reading of each strip that lies farthest along `outward`.
+    fn outermost(&self, points: &[u32], sensor: &Sensor, across: &Vec3, outward: &Vec3) -> Vec<Vec3> {
+        let mut found = vec![(f64::NEG_INFINITY, 0_u32, 0_usize); self.count];
+        for &index in points {
+            let point = sensor.point(index);
+            let strip = ((point.dot(across) - self.low) / self.width).floor();
+            if strip >= 0.0 && strip < self.count as f64 {
+                let (farthest, at, readings) = &mut found[strip as usize];
+                *readings += 1;
+                let out = point.dot(outward);
+                if out > *farthest {
+                    (*farthest, *at) = (out, index);
+                }
+            }
+        }
+        let enough = found.iter().filter(|(_, _, readings)| *readings >= LEAST_READINGS_OF_STRIP);
+        enough.map(|&(_, index, _)| sensor.point(index)).collect()
+    }
+}

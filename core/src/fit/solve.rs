@@ -1,0 +1,96 @@
+use nalgebra::DMatrix;
+use nalgebra::{Cholesky, Dyn};
+
+use super::body::{FittedBody, Parameters};
+use super::layout::PARAMETER_COUNT;
+use super::problem::{Linearized, Problem};
+use super::refusal::NotFitted;
+
+/// A body at which the objective is least, and the covariance of its numbers there.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    pub body: FittedBody,
+    /// Inverse of the curvature: of independent readings.
+    pub covariance: DMatrix<f64>,
+}
+
+const FIRST_DAMPING: f64 = 1e-3;
+const LEAST_DAMPING: f64 = 1e-9;
+const MOST_DAMPING: f64 = 1e10;
+/// With cuts from the first down towards the last; each gets this many steps to come near.
+const COARSE_STAGES: usize = 2;
+const STEPS_OF_STAGE: usize = 8;
+
+/// Levenberg-Marquardt: coarse cuts first, so that a poor start does not lose its readings (eq. 82).
+///
+/// # Errors
+/// Where the steps are spent or none betters the objective before it is least.
+pub fn solve(problem: &Problem, start: &FittedBody) -> Result<Solution, NotFitted> {
+    let (first, last) = (problem.settings.first_cut, problem.settings.last_cut);
+    let mut body = start.clone();
+    for stage in 0..COARSE_STAGES {
+        let share = stage as f64 / COARSE_STAGES as f64;
+        let mut coarse = Descent::new(problem, body, first * (last / first).powf(share));
+        // It need not end: the next stage goes on from there.
+        let _ = coarse.run(STEPS_OF_STAGE);
+        body = coarse.body;
+    }
+    let mut descent = Descent::new(problem, body, last);
+    descent.run(problem.settings.max_steps)?;
+    let covariance = factor(&descent.at.curvature, 0.0).ok_or(NotFitted::Singular)?.inverse();
+    Ok(Solution { body: descent.body, covariance })
+}
+
+struct Descent<'a> {
+    problem: &'a Problem,
+    cut: f64,
+    body: FittedBody,
+    at: Linearized,
+    damping: f64,
+    steps: usize,
+}
+
+impl<'a> Descent<'a> {
+    fn new(problem: &'a Problem, body: FittedBody, cut: f64) -> Self {
+        let at = problem.linearize(&body, cut);
+        Self { problem, cut, body, at, damping: FIRST_DAMPING, steps: 0 }
+    }
+
+    /// Until a step would gain less than `least_gain`.
+    fn run(&mut self, most: usize) -> Result<(), NotFitted> {
+        while self.steps < most {
+            self.steps += 1;
+            let free = factor(&self.at.curvature, 0.0).ok_or(NotFitted::Singular)?;
+            let newton = free.solve(&self.at.gradient);
+            if self.at.gradient.dot(&newton) < 2.0 * self.problem.settings.least_gain {
+                return Ok(());
+            }
+            self.step()?;
+        }
+        Err(NotFitted::StepsSpent(most))
+    }
+
+    /// One step downhill, damped until it is one.
+    fn step(&mut self) -> Result<(), NotFitted> {
+        while self.damping < MOST_DAMPING {
+            let damped = factor(&self.at.curvature, self.damping).ok_or(NotFitted::Singular)?;
+            let step: Parameters = -damped.solve(&self.at.gradient);
+            let body = self.body.moved(&step);
+            let at = self.problem.linearize(&body, self.cut);
+            if at.cost < self.at.cost {
+                (self.body, self.at) = (body, at);
+                self.damping = (self.damping / 10.0).max(LEAST_DAMPING);
+                return Ok(());
+            }
+            self.damping *= 8.0;
+        }
+        Err(NotFitted::NoStepBetters)
+    }
+}
+
+/// Of the curvature with its diagonal raised by that share.
+fn factor(curvature: &DMatrix<f64>, damping: f64) -> Option<Cholesky<f64, Dyn>> {
+    let mut matrix = curvature.clone();
+    (0..PARAMETER_COUNT).for_each(|i| matrix[(i, i)] *= 1.0 + damping);
+    Cholesky::new(matrix)
+}
