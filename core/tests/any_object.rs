@@ -5,7 +5,7 @@ mod common;
 use boxwright_core::geometry::Rectangle;
 use boxwright_core::inference::{ObjectModel, SearchSettings};
 use boxwright_core::model::{Template, Weights};
-use boxwright_core::pipeline::{understand, Answer};
+use boxwright_core::pipeline::{understand, Answer, Bodies};
 use common::{rectangle, scene, unit_weights};
 
 const TABLE: &str = r#"

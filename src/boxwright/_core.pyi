@@ -213,7 +213,10 @@ def infer(
     search: dict[str, float | str] | None = None,
     fitted: bool = False,
 ) -> tuple[Perception, Answer]:
-    """From a cloud to its objects in one call, bodies fitted or of rectangles. Raises ValueError where the cloud cannot be used, with the mend."""
+    """From a cloud to its objects in one call, bodies fitted or of rectangles.
+
+    Raises ValueError where the cloud cannot be used, with the mend.
+    """
 
 def describe(
     perception: Perception,

@@ -72,9 +72,5 @@ impl FittedBody {
 
 /// The parameter that is the length of side `k`'s edge.
 pub const fn edge_place(k: usize) -> usize {
-    if k % 2 == 0 {
-        layout::LENGTH
-    } else {
-        layout::WIDTH
-    }
+    [layout::LENGTH, layout::WIDTH, layout::LENGTH, layout::WIDTH][k % 4]
 }

@@ -2,9 +2,9 @@
 
 mod answer;
 mod body;
-mod fit;
 mod forward;
 mod layout;
+mod object;
 mod panel;
 mod priors;
 mod problem;
@@ -19,7 +19,7 @@ mod sheet;
 mod solve;
 mod start;
 
-pub use fit::fit_object;
+pub use object::fit_object;
 pub use refusal::NotFitted;
 pub use settings::FitSettings;
 

@@ -33,11 +33,16 @@ impl Rim {
         Self { k, sign, sin_rack, cos_rack, across_m: body.edge_m(k + 1), height_m: body.get(HEIGHT) }
     }
 
+    /// Sides 0 and 2 run along the length, 1 and 3 along the width.
+    fn is_along_length(&self) -> bool {
+        edge_place(self.k) == LENGTH
+    }
+
     /// Of a point in the object's frame.
     pub fn locate(&self, point: Vec3) -> AtRim {
         let (x, y, half) = (self.sign * point.x, self.sign * point.y, self.across_m / 2.0);
         let (s, c) = (self.sin_rack, self.cos_rack);
-        let (along, inward) = if self.k % 2 == 0 {
+        let (along, inward) = if self.is_along_length() {
             (x + half * s, y + half * c)
         } else {
             (s * x + c * y - half * s, s * y - c * x + half * c)
@@ -48,7 +53,7 @@ impl Rim {
     /// The point there, in the object's frame: the inverse of `locate`.
     pub fn place(&self, along: f64, inward: f64, above: f64) -> Vec3 {
         let (s, c, half) = (self.sin_rack, self.cos_rack, self.across_m / 2.0);
-        let (x, y) = if self.k % 2 == 0 {
+        let (x, y) = if self.is_along_length() {
             (along - half * s, inward - half * c)
         } else {
             (s * along - c * inward + half, c * along + s * inward)
@@ -60,7 +65,7 @@ impl Rim {
     pub fn directions(&self) -> (Vec3, Vec3) {
         let (s, c) = (self.sin_rack, self.cos_rack);
         let (along, inward) =
-            if self.k % 2 == 0 { (Vec3::x(), Vec3::y()) } else { (Vec3::new(s, c, 0.0), Vec3::new(-c, s, 0.0)) };
+            if self.is_along_length() { (Vec3::x(), Vec3::y()) } else { (Vec3::new(s, c, 0.0), Vec3::new(-c, s, 0.0)) };
         (along * self.sign, inward * self.sign)
     }
 
@@ -71,12 +76,12 @@ impl Rim {
         let (s, c, half) = (self.sin_rack, self.cos_rack, self.across_m / 2.0);
         let (x, y) = (self.sign * at.point.x, self.sign * at.point.y);
         let (along, inward) = self.directions();
-        let (across, turned) = if self.k % 2 == 0 {
+        let (across, turned) = if self.is_along_length() {
             ([s / 2.0, c / 2.0], [half * c, -half * s])
         } else {
             ([-s / 2.0, c / 2.0], [c * x - s * y - half * c, s * x + c * y - half * s])
         };
-        let across_place = if edge_place(self.k) == LENGTH { WIDTH } else { LENGTH };
+        let across_place = if self.is_along_length() { WIDTH } else { LENGTH };
         slots[across_place] += by_along * across[0] + by_inward * across[1];
         slots[RACK] += by_along * turned[0] + by_inward * turned[1];
         slots[HEIGHT] -= by_above;
