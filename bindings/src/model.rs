@@ -229,11 +229,22 @@ fn describe(
     Ok(Answer { answer })
 }
 
+/// DEBUG
+#[pyfunction]
+fn debug_shells(points: PyReadonlyArray2<'_, f32>, width: usize, height: usize, viewpoint: [f64; 3], mode: usize) -> PyResult<Vec<(Vec<[f64; 3]>, f64, f64)>> {
+    let points = rows_of_three(&points, width, height)?;
+    let settings = PerceptionSettings::default();
+    let cloud = CloudView { points, width, height, viewpoint: Some(Vec3::from(viewpoint)) };
+    let scene = boxwright_core::perception::perceive(&cloud, &settings).map_err(to_python)?;
+    Ok(boxwright_core::open_box::debug(&cloud, &scene, &settings, mode))
+}
+
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<Template>()?;
     m.add_class::<ObjectModel>()?;
     m.add_class::<Answer>()?;
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
+    m.add_function(wrap_pyfunction!(debug_shells, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
     m.add_function(wrap_pyfunction!(describe, m)?)?;
     m.add_function(wrap_pyfunction!(understand, m)?)

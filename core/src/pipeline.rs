@@ -10,6 +10,7 @@ use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
 use crate::model::{Assignment, Body, SegmentSet};
+use crate::open_box;
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -52,6 +53,12 @@ pub fn infer(
     bodies: Bodies,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
+    if let Bodies::Fitted(_) = bodies {
+        let readings = Readings::new(cloud, perception);
+        if let Some(answer) = whole_boxes(cloud, &scene, &readings, models) {
+            return Ok((scene, answer));
+        }
+    }
     let mut answer = understand(&scene, cloud.points.len(), models, search, bodies)?;
     if search.search == SearchMethod::Exact {
         let start = Instant::now();
@@ -61,6 +68,34 @@ pub fn infer(
         answer.stage_seconds.push(("free_space", start.elapsed().as_secs_f64()));
     }
     Ok((scene, answer))
+}
+
+/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint.
+fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[ObjectModel]) -> Option<Answer> {
+    let start = Instant::now();
+    let settings = FitSettings::default();
+    let sight = open_box::Sight::new(cloud, readings, scene)?;
+    let found = open_box::find(&sight, scene, &settings);
+    let mut answer = Answer {
+        objects: Vec::new(),
+        object_of_point: vec![-1; cloud.points.len()],
+        part_of_point: vec![-1; cloud.points.len()],
+        warnings: Vec::new(),
+        free_space: true,
+        stage_seconds: Vec::new(),
+    };
+    for one in &found {
+        let Some((object, parts)) = open_box::answer(one, &models[0].template, &sight, &settings) else { continue };
+        for (part, points) in parts {
+            for point in points {
+                answer.object_of_point[point as usize] = answer.objects.len() as i16;
+                answer.part_of_point[point as usize] = part as i16;
+            }
+        }
+        answer.objects.push(object);
+    }
+    answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
+    Some(answer)
 }
 
 /// What the rays say of each part with corners; `None` where they say nothing of the cloud.

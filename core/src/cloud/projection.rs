@@ -71,6 +71,16 @@ impl Projection {
         (place.z > 1e-6).then(|| [(place.x / place.z + 0.5) * self.width, (place.y / place.z + 0.5) * self.height])
     }
 
+    /// Maps a direction out of the origin to its pixel's column and row, homogeneous.
+    pub fn pixel_from_ray(&self) -> Matrix3<f64> {
+        let pixel_from_place = Matrix3::from_rows(&[
+            RowVector3::new(self.width, 0.0, 0.5 * self.width),
+            RowVector3::new(0.0, self.height, 0.5 * self.height),
+            RowVector3::new(0.0, 0.0, 1.0),
+        ]);
+        pixel_from_place * self.place_from_ray
+    }
+
     /// Maps a pixel's column, row and 1 to its ray, of any positive length, in the input's frame.
     pub fn ray_from_pixel(&self) -> Option<Matrix3<f64>> {
         let place_from_pixel = Matrix3::from_rows(&[

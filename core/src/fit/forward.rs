@@ -65,11 +65,17 @@ fn flap_corners(body: &FittedBody, k: usize) -> [Vec3; 4] {
     ]
 }
 
+/// Where flap `k` ends, bent or not, in its rim's frame: inward, above.
+pub fn flap_end(body: &FittedBody, k: usize) -> [f64; 2] {
+    let of = |place: usize| body.get(layout::flap(k) + place);
+    FlapSection::new(of(FLAP_ANGLE), of(FLAP_LENGTH), of(FLAP_CURL)).end_at_rim().into()
+}
+
 /// From where the flap really ends, bent or not.
 fn tuck_corners(body: &FittedBody, k: usize) -> [Vec3; 4] {
     let of = |place: usize| body.get(layout::flap(k) + place);
     let own = |place: usize| body.get(layout::tuck(k) + place);
-    let (inward, above) = FlapSection::new(of(FLAP_ANGLE), of(FLAP_LENGTH), of(FLAP_CURL)).end_at_rim();
+    let [inward, above] = flap_end(body, k);
     let (sin, cos) = (of(FLAP_ANGLE) - own(TUCK_ANGLE)).sin_cos();
     let (offset, half) = (of(FLAP_OFFSET), own(TUCK_WIDTH) / 2.0);
     let (rim, length) = (Rim::new(body, k), own(TUCK_LENGTH));

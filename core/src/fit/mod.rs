@@ -3,7 +3,7 @@
 mod answer;
 mod body;
 mod forward;
-mod layout;
+pub(crate) mod layout;
 mod object;
 mod panel;
 mod priors;
@@ -19,9 +19,24 @@ mod sheet;
 mod solve;
 mod start;
 
+pub use body::FittedBody;
+pub use forward::corners;
 pub use object::fit_object;
 pub use refusal::NotFitted;
+pub use rim::Rim;
+pub use roles::Role;
 pub use settings::FitSettings;
+
+pub(crate) use answer::fill;
+pub(crate) use body::{edge_place, Parameters};
+pub(crate) use forward::flap_end;
+pub(crate) use object::{canonical_turn, check};
+pub(crate) use panel::Panel;
+pub(crate) use priors::priors;
+pub(crate) use problem::Problem;
+pub(crate) use readings::{PartEnds, PartReadings, PartSegment};
+pub(crate) use sensor::Sensor;
+pub(crate) use solve::{solve, Solution};
 
 #[cfg(test)]
 mod derivative_tests;

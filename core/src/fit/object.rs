@@ -4,7 +4,7 @@ use super::layout::{HEIGHT, LENGTH, RACK, THICKNESS, WIDTH};
 use super::panel::{Panel, NEAR};
 use super::priors::priors;
 use super::problem::Problem;
-use super::readings::{PartReadings, PartSegment};
+use super::readings::{PartEnds, PartReadings, PartSegment};
 use super::refusal::NotFitted;
 use super::roles::Role;
 use super::sensor::Sensor;
@@ -71,9 +71,9 @@ fn part_segments<'a>(
         let s = set.scene_index[assignment[part]?];
         Some(PartSegment {
             role,
-            plane: scene.segments.planes[s],
-            rectangle: &scene.segments.rectangles[s],
-            edges: scene.segments.edges[s],
+            normal: scene.segments.planes[s].normal,
+            center: scene.segments.rectangles[s].center(),
+            ends: PartEnds::OfRectangle(&scene.segments.rectangles[s], scene.segments.edges[s]),
             points: scene.segments.points_of(s),
         })
     };
@@ -99,7 +99,7 @@ fn fit(
 }
 
 /// The turn that makes side 0 the longer side nearest the camera.
-fn canonical_turn(body: &FittedBody, viewpoint: Option<Vec3>) -> usize {
+pub fn canonical_turn(body: &FittedBody, viewpoint: Option<Vec3>) -> usize {
     let eye = body.to_object(&viewpoint.unwrap_or_else(Vec3::zeros));
     let first = usize::from(body.get(WIDTH) > body.get(LENGTH));
     // The distance from the line of a side's top is that in its frame across it; both of a pair are equally long.
@@ -131,7 +131,7 @@ const SIZES_M: [f64; 2] = [0.01, 3.0];
 const MOST_RACK_RAD: f64 = 0.35;
 const MOST_THICKNESS_M: f64 = 0.03;
 
-fn check(body: &FittedBody) -> Result<(), NotFitted> {
+pub fn check(body: &FittedBody) -> Result<(), NotFitted> {
     let absurd = |name: &'static str, value: f64| Err(NotFitted::Absurd { name, value });
     for (name, place) in [("length", LENGTH), ("width", WIDTH), ("height", HEIGHT)] {
         if !(SIZES_M[0]..=SIZES_M[1]).contains(&body.get(place)) {

@@ -5,19 +5,38 @@ use super::panel::{outward_coordinate, Panel};
 use super::roles::Role;
 use super::sensor::Sensor;
 use super::settings::FitSettings;
-use crate::geometry::{Plane, Rectangle, Vec3};
+use crate::geometry::{Rectangle, Vec3};
 use crate::perception::EdgeKind;
 
-/// The readings of one part's segment.
+/// The readings of one part.
 #[derive(Debug, Clone, Copy)]
 pub struct PartSegment<'a> {
     pub role: Role,
-    /// Normal towards the viewpoint where there is one.
-    pub plane: Plane,
-    pub rectangle: &'a Rectangle,
-    pub edges: [EdgeKind; 4],
+    /// Towards the viewpoint where there is one.
+    pub normal: Vec3,
+    pub center: Vec3,
+    pub ends: PartEnds<'a>,
     /// Indices into the cloud.
     pub points: &'a [u32],
+}
+
+/// What ends a part at each of its ends.
+#[derive(Debug, Clone, Copy)]
+pub enum PartEnds<'a> {
+    /// As perception says of the sides of the segment's rectangle.
+    OfRectangle(&'a Rectangle, [EdgeKind; 4]),
+    /// End by end; `None` where nothing does, or its readings do not tell where.
+    Told([Option<EdgeKind>; 4]),
+}
+
+impl PartEnds<'_> {
+    /// Of the end that lies that way.
+    fn kind(&self, end: usize, outward: &Vec3) -> Option<EdgeKind> {
+        match self {
+            Self::OfRectangle(rectangle, edges) => Some(edges[rectangle_side(rectangle, outward)]),
+            Self::Told(kinds) => kinds[end],
+        }
+    }
 }
 
 /// A reading that lies on the part's face.
@@ -54,13 +73,13 @@ pub struct PartReadings {
 impl PartReadings {
     pub fn new(segment: &PartSegment, start: &FittedBody, sensor: &Sensor, settings: &FitSettings) -> Self {
         let panel = Panel::new(start, segment.role);
-        let face = if sensor.viewpoint.is_some() { facing(&panel, start, &segment.plane.normal) } else { 0.0 };
+        let face = if sensor.viewpoint.is_some() { facing(&panel, start, &segment.normal) } else { 0.0 };
         let count = segment.points.len();
         let taken = count.min(settings.face_samples);
         // In the order of the image the same steps go over the whole of it.
         let faces: Vec<FaceReading> = (0..taken)
             .map(|i| sensor.point(segment.points[(2 * i + 1) * count / (2 * taken)]))
-            .map(|point| FaceReading { point, sigma_m: sensor.sigma_m(&point, &segment.plane.normal, settings) })
+            .map(|point| FaceReading { point, sigma_m: sensor.sigma_m(&point, &segment.normal, settings) })
             .collect();
         let information = (count as f64 / settings.readings_that_agree).min(settings.most_face_information);
         let ends = (0..4).flat_map(|end| end_readings(segment, &panel, start, sensor, settings, end)).collect();
@@ -93,7 +112,7 @@ fn end_readings(
     let (bounded, sign) = outward_coordinate(segment.role, end);
     let axes = panel.axes().map(|axis| start.input_from_object * axis);
     let (outward, across) = (axes[bounded] * sign, axes[1 - bounded]);
-    let kind = segment.edges[rectangle_side(segment.rectangle, &outward)];
+    let Some(kind) = segment.ends.kind(end, &outward) else { return Vec::new() };
     let strips = Strips::new(segment, &across, sensor, settings);
     let blur_m = if kind == EdgeKind::Crease { settings.crease_sigma_m } else { settings.edge_sigma_m };
     let outermost = strips.outermost(segment.points, sensor, &across, &outward);
@@ -134,7 +153,7 @@ impl Strips {
         let along = segment.points.iter().map(|&i| sensor.point(i).dot(across));
         let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
         let (low, high) = (low + CORNER_SHARE * (high - low), high - CORNER_SHARE * (high - low));
-        let pixel_m = sensor.pixel_m(&segment.rectangle.center(), across);
+        let pixel_m = sensor.pixel_m(&segment.center, across);
         let fit = ((high - low) / (STRIP_PX * pixel_m)) as usize;
         let count = fit.clamp(1, settings.end_strips);
         Self { low, width: (high - low) / count as f64, count }

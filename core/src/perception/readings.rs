@@ -85,7 +85,12 @@ impl<'a> Readings<'a> {
 
     /// Standard deviation of the reading, metres.
     pub fn sigma_m(&self, p: &Vec3) -> f64 {
-        self.noise_scale * self.settings.sigma_m(self.range_m(p))
+        self.sigma_at_range_m(self.range_m(p))
+    }
+
+    /// The same for a reading at that distance from the sensor.
+    pub fn sigma_at_range_m(&self, range_m: f64) -> f64 {
+        self.noise_scale * self.settings.sigma_m(range_m)
     }
 
     /// Takes the readings to be this many times noisier than the settings say.

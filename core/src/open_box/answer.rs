@@ -1,0 +1,62 @@
+use std::collections::BTreeMap;
+
+use super::find::FoundBox;
+use super::sight::Sight;
+use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer};
+use crate::fit::{fill, FitSettings, Role, Solution};
+use crate::free_space::PartState;
+use crate::model::{Body, Template};
+
+/// A box as `model.json` tells it, and the readings of each of its parts; `None` where the template's body is no open box.
+pub fn answer(
+    found: &FoundBox,
+    template: &Template,
+    sight: &Sight,
+    settings: &FitSettings,
+) -> Option<(ObjectAnswer, Vec<(usize, Vec<u32>)>)> {
+    let Body::OpenBox(box_roles) = &template.body else { return None };
+    let roles = Role::of_parts(box_roles);
+    let mut seen = vec![false; template.parts.len()];
+    let mut parts: Vec<PartAnswer> = template.parts.iter().map(|part| blank(&part.name)).collect();
+    let mut readings = Vec::new();
+    for &(part, role) in &roles {
+        let points = found.labels.of(role);
+        if points.len() < LEAST_READINGS {
+            continue;
+        }
+        seen[part] = true;
+        parts[part].points = points.len();
+        readings.push((part, points.to_vec()));
+    }
+    let mut body = found.solution.body.clone();
+    body.input_from_object = sight.input_from_level * body.input_from_object;
+    let solution = Solution { body, covariance: found.solution.covariance.clone() };
+    let mut object = ObjectAnswer {
+        template: template.name.clone(),
+        template_probability: None,
+        score: found.score,
+        probability: None,
+        inference: InferenceAnswer::new(f64::INFINITY, 0),
+        score_terms: Vec::new(),
+        dimensions: None,
+        outer_dimensions: None,
+        thickness: None,
+        pose: None,
+        parameters: BTreeMap::new(),
+        parts,
+        joints: Vec::new(),
+    };
+    fill(&mut object, template, &roles, &seen, &solution, settings);
+    for &(part, role) in &roles {
+        let state = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, e)| PartState::of(&e.looked()));
+        object.parts[part].state = state;
+    }
+    Some((object, readings))
+}
+
+/// Parts of fewer readings are not called seen.
+const LEAST_READINGS: usize = 150;
+
+fn blank(name: &str) -> PartAnswer {
+    PartAnswer { name: name.to_owned(), observed: false, state: None, probability: None, corners: None, points: 0 }
+}

@@ -1,0 +1,128 @@
+//! What the rays say of each panel of a body.
+
+use super::sight::{Says, Sight};
+use crate::fit::{flap_end, layout, FittedBody, Rim, Role};
+use crate::free_space::Looked;
+use crate::geometry::Vec3;
+
+/// Of one panel, in pixels of the image.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Evidence {
+    pub met: f64,
+    pub through: f64,
+    pub hidden: f64,
+    pub blank: f64,
+    pub outside: f64,
+    /// Whether it is a side's inner face that the camera sees.
+    pub is_inner: bool,
+}
+
+impl Evidence {
+    pub fn looked(&self) -> Looked {
+        let Self { met, through, hidden, blank, outside, .. } = *self;
+        Looked { met, through, hidden, blank, outside }
+    }
+}
+
+const ALONG: usize = 16;
+const AWAY: usize = 12;
+/// Left out at each end, share of the panel.
+const END_SHARE: f64 = 0.06;
+
+/// A panel as a sheet: points by shares of its width and length, with the normal there.
+pub struct Sheet<'a> {
+    body: &'a FittedBody,
+    role: Role,
+    rim: Rim,
+    /// The panel's own edge directions at its hinge or rim, in the rim's frame (inward, above), and where it begins.
+    way: [f64; 2],
+    from: [f64; 2],
+    width_m: f64,
+    pub length_m: f64,
+    offset_m: f64,
+    taper_m: f64,
+    curl: f64,
+    /// Half boards off the middle.
+    pub face: f64,
+}
+
+impl<'a> Sheet<'a> {
+    /// The face that an eye in the body's world sees.
+    pub fn new(body: &'a FittedBody, role: Role, eye: &Vec3) -> Self {
+        let k = role.side();
+        let flap = |place: usize| body.get(layout::flap(k) + place);
+        let tuck = |place: usize| body.get(layout::tuck(k) + place);
+        let rim = Rim::new(body, k);
+        let (angle, from, width_m, length_m, taper_m, curl) = match role {
+            // The base as a sheet that leaves side 0's foot inwards.
+            Role::Base => (0.0, [0.0, body.get(layout::THICKNESS) / 2.0 - body.get(layout::HEIGHT)], body.edge_m(0), body.edge_m(1), 0.0, 0.0),
+            Role::Side(_) => (-std::f64::consts::FRAC_PI_2, [0.0, 0.0], body.edge_m(k), body.get(layout::HEIGHT), 0.0, 0.0),
+            Role::Flap(_) => (
+                flap(layout::FLAP_ANGLE),
+                [0.0, 0.0],
+                flap(layout::FLAP_WIDTH),
+                flap(layout::FLAP_LENGTH),
+                flap(layout::FLAP_TAPER),
+                flap(layout::FLAP_CURL),
+            ),
+            Role::Tuck(_) => (
+                flap(layout::FLAP_ANGLE) - tuck(layout::TUCK_ANGLE),
+                flap_end(body, k),
+                tuck(layout::TUCK_WIDTH),
+                tuck(layout::TUCK_LENGTH),
+                0.0,
+                0.0,
+            ),
+        };
+        let offset_m = if matches!(role, Role::Flap(_) | Role::Tuck(_)) { flap(layout::FLAP_OFFSET) } else { 0.0 };
+        let (sin, cos) = angle.sin_cos();
+        let way = [cos, sin];
+        let at = rim.locate(body.to_object(eye));
+        let height = (at.above - from[1]) * way[0] - (at.inward - from[0]) * way[1];
+        Self { body, role, rim, way, from, width_m, length_m, offset_m, taper_m, curl, face: height.signum() }
+    }
+
+    /// The point of the visible face a share `u` of the width from the middle (-1/2 .. 1/2) and `reach_m` away from the hinge, and
+    /// the normal there.
+    pub fn at(&self, u: f64, reach_m: f64) -> (Vec3, Vec3) {
+        let bend = self.curl * reach_m;
+        let normal = [-self.way[1] - bend * self.way[0], self.way[0] - bend * self.way[1]];
+        let lift = self.curl * reach_m * reach_m / 2.0 + self.face * self.body.get(layout::THICKNESS).max(0.0) / 2.0;
+        let place = |i: usize| self.from[i] + self.way[i] * reach_m + [-self.way[1], self.way[0]][i] * lift;
+        let narrowing = 2.0 * self.taper_m * (reach_m / self.length_m.max(1e-3)).min(1.0);
+        let point = self.rim.place(self.offset_m + u * (self.width_m - narrowing), place(0), place(1));
+        let (_, inward) = self.rim.directions();
+        let normal = inward * normal[0] + Vec3::z() * normal[1];
+        (self.body.to_input(&point), (self.body.input_from_object.rotation * normal).normalize())
+    }
+
+    /// Unit vector along the hinge, in the body's world.
+    pub fn along(&self) -> Vec3 {
+        self.body.input_from_object.rotation * self.rim.directions().0
+    }
+
+    pub fn width_m(&self) -> f64 {
+        self.width_m
+    }
+
+    /// What the rays say of it.
+    pub fn look(&self, sight: &Sight, model_m: f64) -> Evidence {
+        let mut out = Evidence { is_inner: matches!(self.role, Role::Side(_)) && self.face > 0.0, ..Evidence::default() };
+        let cell = self.width_m * self.length_m * (1.0 - 2.0 * END_SHARE).powi(2) / (ALONG * AWAY) as f64;
+        let share = |i: usize, n: usize| END_SHARE + (1.0 - 2.0 * END_SHARE) * (i as f64 + 0.5) / n as f64;
+        for i in 0..ALONG {
+            for j in 0..AWAY {
+                let (point, normal) = self.at(share(i, ALONG) - 0.5, share(j, AWAY) * self.length_m);
+                let pixels = sight.pixels(&point, &normal, cell);
+                *match sight.ask(&point, &normal, model_m).0 {
+                    Says::Met => &mut out.met,
+                    Says::Through => &mut out.through,
+                    Says::Hidden => &mut out.hidden,
+                    Says::Blank => &mut out.blank,
+                    Says::Outside => &mut out.outside,
+                } += pixels;
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,239 @@
+use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
+
+use super::evidence::{Evidence, Sheet};
+use super::flap_scan::{scan, HingeLine, ScanRange, ScannedFlap};
+use super::patch::Patch;
+use super::proposal::{proposals, Proposal};
+use super::refit::refit;
+use super::shell::{Rays, ShellLook};
+use super::sight::Sight;
+use super::surfaces::{label, roles, Labels, Present};
+use super::upright::ways_up;
+use super::yaw::yaws;
+use crate::fit::{check, layout, FitSettings, FittedBody, Parameters, Role, Solution};
+use crate::geometry::Vec3;
+use crate::perception::Scene;
+
+/// An open box in the level frame.
+#[derive(Debug, Clone)]
+pub struct FoundBox {
+    pub solution: Solution,
+    pub present: Present,
+    pub labels: Labels,
+    pub evidence: Vec<(Role, Evidence)>,
+    pub score: f64,
+}
+
+/// Of proposals that lie upon each other so many are looked at closely.
+const RIVALS: usize = 16;
+const MOST_SHELLS: usize = 48;
+const RIVALS_FITTED: usize = 4;
+const BOARD_M: f64 = 0.004;
+
+#[derive(Debug, Clone)]
+pub struct Shell {
+    pub proposal: Proposal,
+    pub looked: ShellLook,
+    pub score: f64,
+    pub flaps: [Option<ScannedFlap>; 4],
+}
+
+/// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings.
+pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBox> {
+    let mut shells = shells(sight, scene);
+    for shell in &mut shells {
+        let body = body_of(&shell.proposal);
+        shell.flaps = scan_flaps(sight, &body, COARSE_M);
+        shell.score += shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
+    }
+    shells.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let mut found: Vec<FoundBox> = Vec::new();
+    let mut fitted: Vec<&Shell> = Vec::new();
+    for shell in &shells {
+        if fitted.iter().filter(|other| overlap(&other.proposal, &shell.proposal)).count() >= RIVALS_FITTED {
+            continue;
+        }
+        fitted.push(shell);
+        found.extend(grow(sight, shell, settings));
+    }
+    choose(found)
+}
+
+/// How well proposals and fitted bodies are known, beside the noise.
+const COARSE_M: f64 = 0.007;
+const FINE_M: f64 = 0.004;
+
+/// Proposals that the rays bear out, distinct, best first.
+pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
+    let patches = Patch::of_things(scene, sight);
+    let rays = Rays::new(sight);
+    let mut all = Vec::new();
+    for proposal in all_proposals(&patches) {
+        {
+            let looked = rays.look(sight, &proposal);
+            let score = looked.score();
+            if score > LEAST_SCORE {
+                all.push(Shell { proposal, looked, score, flaps: [None; 4] });
+            }
+        }
+    }
+    all.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let mut out: Vec<Shell> = Vec::new();
+    for shell in all {
+        let rivals = out.iter().filter(|other| overlap(&other.proposal, &shell.proposal)).count();
+        if rivals < RIVALS && !out.iter().any(|other| alike(&other.proposal, &shell.proposal)) {
+            out.push(shell);
+        }
+        if out.len() >= MOST_SHELLS {
+            break;
+        }
+    }
+    out
+}
+
+fn all_proposals(patches: &[Patch]) -> Vec<Proposal> {
+    let mut out = Vec::new();
+    for up in ways_up(patches) {
+        let x = (Vec3::x() - up * up.x).normalize();
+        let frame = [x, up.cross(&x), up];
+        out.extend(yaws(patches, &frame).into_iter().flat_map(|yaw| proposals(patches, &frame, yaw)));
+    }
+    out
+}
+
+/// Pixels for a box more than against it.
+const LEAST_SCORE: f64 = 300.0;
+const ALIKE_M: f64 = 0.009;
+
+fn alike(a: &Proposal, b: &Proposal) -> bool {
+    let same_axes = a.axes[0].dot(&b.axes[0]) > 0.998 && a.up.dot(&b.up) > 0.9993;
+    let near = |x: &[f64; 2], y: &[f64; 2]| (x[0] - y[0]).abs() < ALIKE_M && (x[1] - y[1]).abs() < ALIKE_M;
+    same_axes && near(&a.spans[0], &b.spans[0]) && near(&a.spans[1], &b.spans[1]) && near(&a.heights, &b.heights)
+}
+
+/// Whether one's middle lies in the other.
+fn overlap(a: &Proposal, b: &Proposal) -> bool {
+    let within = |a: &Proposal, b: &Proposal| {
+        let middle = middle(b);
+        (0..2).all(|i| (a.spans[i][0]..=a.spans[i][1]).contains(&a.axes[i].dot(&middle)))
+    };
+    within(a, b) || within(b, a)
+}
+
+fn middle(proposal: &Proposal) -> Vec3 {
+    let half = |span: &[f64; 2]| (span[0] + span[1]) / 2.0;
+    let [x, y] = proposal.spans.each_ref().map(half);
+    proposal.axes[0] * x + proposal.axes[1] * y + proposal.up * half(&proposal.heights)
+}
+
+fn body_of(proposal: &Proposal) -> FittedBody {
+    let [x, y] = proposal.spans;
+    let rotation = Rotation3::from_basis_unchecked(&[proposal.axes[0], proposal.axes[1], proposal.up]);
+    let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+    let mut numbers = Parameters::zeros();
+    numbers[layout::LENGTH] = x[1] - x[0] - BOARD_M;
+    numbers[layout::WIDTH] = y[1] - y[0] - BOARD_M;
+    numbers[layout::HEIGHT] = proposal.heights[1] - proposal.heights[0];
+    numbers[layout::THICKNESS] = BOARD_M;
+    let bottom = middle(proposal) - proposal.up * (numbers[layout::HEIGHT] / 2.0);
+    let mut body = FittedBody { input_from_object: Isometry3::from_parts(Translation3::from(bottom), rotation), numbers };
+    for k in 0..4 {
+        body.numbers[layout::flap(k) + layout::FLAP_LENGTH] = 0.1;
+        body.numbers[layout::flap(k) + layout::FLAP_WIDTH] = body.edge_m(k) - 0.006;
+        body.numbers[layout::flap(k) + layout::FLAP_ANGLE] = std::f64::consts::PI;
+        body.numbers[layout::tuck(k) + layout::TUCK_LENGTH] = 0.04;
+        body.numbers[layout::tuck(k) + layout::TUCK_WIDTH] = body.edge_m(k) - 0.016;
+    }
+    body
+}
+
+const FLAP_ANGLES_RAD: [f64; 2] = [-0.35, 4.3];
+
+fn scan_flaps(sight: &Sight, body: &FittedBody, model_m: f64) -> [Option<ScannedFlap>; 4] {
+    std::array::from_fn(|k| {
+        let range = ScanRange { angles_rad: FLAP_ANGLES_RAD, longest_m: 1.06 * body.edge_m(k + 1) + 0.02, model_m };
+        scan(sight, &HingeLine::of_side(body, k), &range).filter(is_flap)
+    })
+}
+
+fn is_flap(flap: &ScannedFlap) -> bool {
+    flap.met > 120.0 && flap.met > 1.5 * flap.through
+}
+
+fn with_flaps(body: &FittedBody, flaps: &[Option<ScannedFlap>; 4]) -> (FittedBody, Present) {
+    let mut out = body.clone();
+    let mut present = Present::default();
+    for (k, flap) in flaps.iter().enumerate() {
+        let Some(flap) = flap else { continue };
+        present.flaps[k] = true;
+        out.numbers[layout::flap(k) + layout::FLAP_ANGLE] = flap.angle_rad;
+        out.numbers[layout::flap(k) + layout::FLAP_CURL] = flap.curl;
+        out.numbers[layout::flap(k) + layout::FLAP_LENGTH] = flap.length_m;
+    }
+    (out, present)
+}
+
+/// From a shell to a fitted box.
+fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox> {
+    let (body, present) = with_flaps(&body_of(&shell.proposal), &shell.flaps);
+    let labels = label(sight, &body, &present, COARSE_M);
+    let solution = refit(sight, &body, &present, &labels, settings).ok()?;
+    check(&solution.body).ok()?;
+    let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, FINE_M + 0.001));
+    let labels = label(sight, &body, &present, FINE_M);
+    let solution = refit(sight, &body, &present, &labels, settings).ok()?;
+    check(&solution.body).ok()?;
+    let labels = label(sight, &solution.body, &present, FINE_M);
+    let evidence: Vec<(Role, Evidence)> = roles(&present)
+        .into_iter()
+        .map(|role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M)))
+        .collect();
+    let of = |(role, e): &(Role, Evidence)| if *role == Role::Base { -2.0 * e.through } else { e.met - 2.0 * e.through };
+    let score = evidence.iter().map(of).sum();
+    Some(FoundBox { solution, present, labels, evidence, score })
+}
+
+/// Takes the best, and of the rest those that leave its readings alone.
+fn choose(mut found: Vec<FoundBox>) -> Vec<FoundBox> {
+    found.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let mut out: Vec<FoundBox> = Vec::new();
+    let mut taken = std::collections::BTreeSet::new();
+    for candidate in found {
+        let points: Vec<u32> = candidate.labels.parts.iter().flat_map(|(_, points)| points).copied().collect();
+        let shared = points.iter().filter(|point| taken.contains(*point)).count();
+        if candidate.score > LEAST_SCORE && 4 * shared <= points.len() {
+            taken.extend(points);
+            out.push(candidate);
+        }
+    }
+    out
+}
+
+pub fn debug(cloud: &crate::cloud::CloudView, scene: &Scene, settings: &crate::perception::PerceptionSettings, mode: usize) -> Vec<(Vec<[f64; 3]>, f64, f64)> {
+    let readings = crate::perception::readings::Readings::new(cloud, settings);
+    let Some(sight) = Sight::new(cloud, &readings, scene) else { return Vec::new() };
+    let corners = |p: &Proposal| -> Vec<[f64; 3]> {
+        (0..8).map(|c: usize| {
+            let at = p.axes[0] * p.spans[0][c & 1] + p.axes[1] * p.spans[1][c >> 1 & 1] + p.up * p.heights[c >> 2];
+            sight.input_from_level.transform_point(&at.into()).coords.into()
+        }).collect()
+    };
+    if mode == 0 {
+        let patches = Patch::of_things(scene, &sight);
+        let rays = Rays::new(&sight);
+        let mut out = Vec::new();
+        for proposal in all_proposals(&patches) {
+            let looked = rays.look(&sight, &proposal);
+            out.push((corners(&proposal), looked.score(), 0.0));
+        }
+        out.sort_by(|a, b| b.1.total_cmp(&a.1));
+        return out;
+    }
+    shells(&sight, scene).iter().map(|mut_shell| {
+        let mut s = mut_shell.clone();
+        let body = body_of(&s.proposal);
+        s.flaps = scan_flaps(&sight, &body, COARSE_M);
+        let total = s.score + s.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
+        (corners(&s.proposal), s.score, total)
+    }).collect()
+}

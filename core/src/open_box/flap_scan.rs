@@ -1,0 +1,230 @@
+//! Each rim edge is scanned for its flap: at every angle the readings are asked whether a board leaves the edge there.
+
+use super::sight::{Says, Sight};
+use crate::fit::{FittedBody, Rim};
+use crate::geometry::Vec3;
+
+/// A flap as the scan sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScannedFlap {
+    pub angle_rad: f64,
+    /// 1/m.
+    pub curl: f64,
+    pub length_m: f64,
+    /// Readings on it, through it and before it, pixels.
+    pub met: f64,
+    pub through: f64,
+    pub hidden: f64,
+}
+
+impl ScannedFlap {
+    pub fn score(&self) -> f64 {
+        self.met - 2.0 * self.through
+    }
+}
+
+/// An edge that a board may hang on, in the level frame.
+#[derive(Debug, Clone, Copy)]
+pub struct HingeLine {
+    pub middle: Vec3,
+    pub along: Vec3,
+    /// Position 0 and position pi/2, unit vectors square to the edge.
+    pub closed: Vec3,
+    pub up: Vec3,
+    /// From the edge into the panel that it belongs to.
+    pub parent: Vec3,
+    pub half_m: f64,
+}
+
+impl HingeLine {
+    /// The top edge of side `k`.
+    pub fn of_side(body: &FittedBody, k: usize) -> Self {
+        let rim = Rim::new(body, k);
+        let turn = body.input_from_object.rotation;
+        let (along, inward) = rim.directions();
+        Self {
+            middle: body.to_input(&rim.place(0.0, 0.0, 0.0)),
+            along: turn * along,
+            closed: turn * inward,
+            up: turn * Vec3::z(),
+            parent: -(turn * Vec3::z()),
+            half_m: body.edge_m(k) / 2.0,
+        }
+    }
+
+    /// What the camera says of a point of a board on the edge; a reading of the panel that the edge belongs to says nothing.
+    fn ask(&self, sight: &Sight, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<Vec3>) {
+        let (says, reading) = sight.ask(point, normal, model_m);
+        let Some((reading, _)) = reading else { return (says, None) };
+        let from = reading - self.middle;
+        let off = self.parent.cross(&self.along).dot(&from).abs();
+        if says == Says::Met && self.parent.dot(&from) > -0.002 && off < model_m + HALF_BOARD_M {
+            return (Says::Blank, None);
+        }
+        (says, Some(reading))
+    }
+
+    fn directions(&self, angle: f64) -> (Vec3, Vec3) {
+        let (sin, cos) = angle.sin_cos();
+        (self.closed * cos + self.up * sin, self.up * cos - self.closed * sin)
+    }
+}
+
+/// What a scan may find. Radians, metres.
+#[derive(Debug, Clone, Copy)]
+pub struct ScanRange {
+    pub angles_rad: [f64; 2],
+    pub longest_m: f64,
+    /// How well the hinge is known.
+    pub model_m: f64,
+}
+
+const HALF_BOARD_M: f64 = 0.003;
+const STEP_RAD: f64 = 0.05;
+/// Ways from the hinge at which all angles are asked.
+const NEAR_M: [f64; 5] = [0.012, 0.018, 0.026, 0.036, 0.048];
+const COLUMNS: usize = 12;
+/// Left out at each end of the edge, share of its half.
+const END_SHARE: f64 = 0.08;
+const PEAKS: usize = 4;
+/// Rows by which a board is followed from its hinge.
+const ROW_M: f64 = 0.004;
+const LEAST_MET_SHARE: f64 = 0.4;
+/// A board is given up after so much of its way without a reading on it.
+const MOST_GAP_M: f64 = 0.03;
+const LEAST_ROWS_M: f64 = 0.012;
+
+/// The best flap on an edge, `None` where no angle has more readings for it than against it.
+pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<ScannedFlap> {
+    let steps = ((range.angles_rad[1] - range.angles_rad[0]) / STEP_RAD).ceil() as usize;
+    let angle = |i: usize| range.angles_rad[0] + i as f64 * STEP_RAD;
+    let scores: Vec<f64> = (0..=steps).map(|i| near_score(sight, hinge, angle(i), range.model_m)).collect();
+    let is_peak = |i: usize| {
+        let of = |j: usize| scores.get(j).copied().unwrap_or(f64::NEG_INFINITY);
+        scores[i] > 0.0 && scores[i] >= of(i + 1) && (i == 0 || scores[i] > of(i - 1))
+    };
+    let mut peaks: Vec<usize> = (0..=steps).filter(|&i| is_peak(i)).collect();
+    peaks.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
+    let followed = peaks.iter().take(PEAKS).filter_map(|&i| follow(sight, hinge, angle(i), range));
+    followed.filter(|flap| flap.score() > 0.0).fold(None, |best: Option<ScannedFlap>, flap| match best {
+        Some(best) if best.score() >= flap.score() => Some(best),
+        _ => Some(flap),
+    })
+}
+
+fn columns(hinge: &HingeLine) -> impl Iterator<Item = f64> {
+    let half = hinge.half_m * (1.0 - END_SHARE);
+    (0..COLUMNS).map(move |i| half * ((2 * i + 1) as f64 / COLUMNS as f64 - 1.0))
+}
+
+fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, model_m: f64) -> f64 {
+    let (way, normal) = hinge.directions(angle);
+    let mut score = 0.0;
+    for column in columns(hinge) {
+        for reach in NEAR_M {
+            let point = hinge.middle + hinge.along * column + way * reach;
+            score += match hinge.ask(sight, &point, &normal, model_m).0 {
+                Says::Met => 1.0,
+                Says::Through => -1.0,
+                Says::Hidden | Says::Blank | Says::Outside => 0.0,
+            };
+        }
+    }
+    score
+}
+
+/// A board followed from the hinge outwards, its angle and curl fitted to what is met on the way.
+fn follow(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -> Option<ScannedFlap> {
+    let mut flap = ScannedFlap { angle_rad: angle, curl: 0.0, length_m: 0.0, met: 0.0, through: 0.0, hidden: 0.0 };
+    for reach in [0.05, 0.1, range.longest_m] {
+        let walk = walk(sight, hinge, &flap, reach.min(range.longest_m), range.model_m);
+        flap = walk.fitted(&flap)?;
+        if reach >= range.longest_m {
+            break;
+        }
+    }
+    let last = walk(sight, hinge, &flap, range.longest_m, range.model_m);
+    let [least, most] = range.angles_rad;
+    let within = (least - STEP_RAD..=most + STEP_RAD).contains(&flap.angle_rad);
+    (within && last.length_m >= LEAST_ROWS_M).then_some(ScannedFlap {
+        length_m: last.length_m,
+        met: last.met,
+        through: last.through,
+        hidden: last.hidden,
+        ..flap
+    })
+}
+
+/// What is met on a board of a given angle and curl.
+#[derive(Default)]
+struct Walk {
+    length_m: f64,
+    met: f64,
+    through: f64,
+    hidden: f64,
+    /// Sums over met readings for y = a x + b x^2 / 2: x x, x x^2, x^2 x^2, x y, x^2 y.
+    sums: [f64; 5],
+}
+
+impl Walk {
+    /// Angle and curl bettered by what was met.
+    fn fitted(&self, flap: &ScannedFlap) -> Option<ScannedFlap> {
+        let [xx, xq, qq, xy, qy] = self.sums;
+        if xx <= 0.0 {
+            return None;
+        }
+        // Boards bend by some degrees over their length: without readings far out the curl stays 0.
+        let qq = qq + CURL_PRIOR;
+        let determinant = xx * qq - xq * xq;
+        let (slope, bend) = ((xy * qq - qy * xq) / determinant, (xx * qy - xq * xy) / determinant);
+        Some(ScannedFlap { angle_rad: flap.angle_rad + slope.atan(), curl: (flap.curl + bend).clamp(-MOST_CURL, MOST_CURL), ..*flap })
+    }
+}
+
+/// In the units of the sums: (x^2/2)^2 summed over readings of 0.1 m reach.
+const CURL_PRIOR: f64 = 2e-5;
+const MOST_CURL: f64 = 2.5;
+
+fn walk(sight: &Sight, hinge: &HingeLine, flap: &ScannedFlap, longest_m: f64, model_m: f64) -> Walk {
+    let (way, normal) = hinge.directions(flap.angle_rad);
+    let mut out = Walk::default();
+    let mut pending = [0.0; 3];
+    let (mut reach, mut last_met) = (0.010, 0.010);
+    let column_m = 2.0 * hinge.half_m * (1.0 - END_SHARE) / COLUMNS as f64;
+    while reach < longest_m && reach - last_met < MOST_GAP_M {
+        let height = flap.curl * reach * reach / 2.0;
+        let tilted = normal - way * (flap.curl * reach);
+        let (mut met, mut through, mut hidden) = (0.0, 0.0, 0.0);
+        let middle = hinge.middle + way * reach + normal * height;
+        let pixels = sight.pixels(&middle, &normal, ROW_M * column_m);
+        for column in columns(hinge) {
+            match hinge.ask(sight, &(middle + hinge.along * column), &tilted, model_m) {
+                (Says::Met, Some(reading)) => {
+                    met += pixels;
+                    let from = reading - hinge.middle;
+                    let (x, y) = (way.dot(&from), normal.dot(&from));
+                    let (q, y) = (x * x / 2.0, y - flap.curl * x * x / 2.0);
+                    for (sum, term) in out.sums.iter_mut().zip([x * x, x * q, q * q, x * y, q * y]) {
+                        *sum += term;
+                    }
+                }
+                (Says::Through, _) => through += pixels,
+                (Says::Hidden, _) => hidden += pixels,
+                _ => {}
+            }
+        }
+        for (sum, term) in pending.iter_mut().zip([met, through, hidden]) {
+            *sum += term;
+        }
+        if met > LEAST_MET_SHARE * (met + through) && met > 0.15 * (met + through + hidden) {
+            out.met += pending[0];
+            out.through += pending[1];
+            out.hidden += pending[2];
+            pending = [0.0; 3];
+            last_met = reach;
+            out.length_m = reach + ROW_M / 2.0;
+        }
+        reach += ROW_M;
+    }
+    out
+}

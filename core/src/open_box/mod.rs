@@ -1,0 +1,19 @@
+//! Open boxes that segments propose and the depth image judges: walls, rim, then flaps, fitted as one body.
+
+mod answer;
+mod ends;
+mod evidence;
+mod find;
+mod flap_scan;
+mod patch;
+mod proposal;
+mod refit;
+mod shell;
+mod sight;
+mod surfaces;
+mod upright;
+mod yaw;
+
+pub use answer::answer;
+pub use find::{debug, find, shells, FoundBox, Shell};
+pub use sight::Sight;

@@ -1,0 +1,191 @@
+//! Boxes that segments propose: two walls' places along each of two directions, and a rim's height.
+
+use super::patch::Patch;
+use crate::geometry::Vec3;
+
+/// A box without flaps, in the level frame: `axes` are its directions square to its own `up`, `spans` where its outer faces
+/// lie along them (low, high), `heights` those of underside and rim. Metres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proposal {
+    pub axes: [Vec3; 2],
+    pub up: Vec3,
+    pub spans: [[f64; 2]; 2],
+    pub heights: [f64; 2],
+    /// For each wall (low and high along the first direction, then the second) whether a segment shows it.
+    pub is_shown: [bool; 4],
+}
+
+/// Where a wall's outer face may lie along a direction.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    at_m: f64,
+    /// The patch that shows it.
+    patch: Option<usize>,
+}
+
+/// Board taken for what is seen from inside, metres.
+const BOARD_M: f64 = 0.004;
+const SIZES_M: [f64; 2] = [0.05, 1.0];
+const HEIGHTS_M: [f64; 2] = [0.025, 0.8];
+/// Walls are within this of square to the box's directions (cosine).
+const LEAST_COS: f64 = 0.985;
+/// Places nearer than this are one.
+const SAME_M: f64 = 0.008;
+/// A wall reaches this far, or this share of it, beyond its neighbours: what is more belongs to something else.
+const OVERHANG_M: f64 = 0.03;
+const OVERHANG_SHARE: f64 = 0.25;
+/// A wall is seen over at least this share of its width.
+const LEAST_COVER: f64 = 0.2;
+/// Proposals for each direction, and rims for each of them, at most.
+const MOST: usize = 400;
+const MOST_RIMS: usize = 5;
+const SAME_RIM_M: f64 = 0.010;
+
+/// All that patches propose for boxes that stand in this direction.
+pub fn proposals(patches: &[Patch], frame: &[Vec3; 3], yaw: f64) -> Vec<Proposal> {
+    let (sin, cos) = yaw.sin_cos();
+    let [x, y, up] = frame;
+    let axes = [x * cos + y * sin, y * cos - x * sin, *up];
+    let found = [0, 1].map(|a| pairs(patches, &axes, a));
+    let mut plans: Vec<(f64, Proposal)> = Vec::new();
+    for first in &found[0] {
+        for second in &found[1] {
+            plans.extend(plan(patches, &axes, [first, second]));
+        }
+    }
+    plans.sort_by(|a, b| b.0.total_cmp(&a.0));
+    plans.truncate(MOST);
+    plans.iter().flat_map(|(_, plan)| with_rims(patches, plan)).collect()
+}
+
+/// Two opposite walls: low and high.
+type Pair = [Place; 2];
+
+fn pairs(patches: &[Patch], axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
+    let (axis, across, up) = (&axes[a], &axes[1 - a], &axes[2]);
+    let [mut low, mut high]: [Vec<Place>; 2] = [Vec::new(), Vec::new()];
+    for (number, patch) in patches.iter().enumerate() {
+        if patch.is_upright(up) && patch.normal.dot(axis).abs() > LEAST_COS {
+            let [from, to] = patch.span(axis);
+            let at_m = (from + to) / 2.0;
+            let shown = |at_m: f64| Place { at_m, patch: Some(number) };
+            // Seen from outside it is the wall on the camera's side, from inside the one across.
+            if patch.normal.dot(axis) > 0.0 {
+                low.push(shown(at_m - BOARD_M));
+                high.push(shown(at_m));
+            } else {
+                low.push(shown(at_m));
+                high.push(shown(at_m + BOARD_M));
+            }
+        }
+    }
+    for patch in patches {
+        let Some(along) = patch.level_direction(up) else { continue };
+        // Walls across end where these stand; flaps hang on them with one of their edges.
+        let is_across = patch.is_upright(up) && along.dot(axis).abs() > LEAST_COS;
+        let is_flap = !patch.is_upright(up) && along.dot(across).abs() > LEAST_COS;
+        if is_across || is_flap {
+            let [from, to] = patch.span(axis);
+            for at_m in [from, to] {
+                low.push(Place { at_m, patch: None });
+                high.push(Place { at_m, patch: None });
+            }
+        }
+    }
+    let (low, high) = (distinct(low), distinct(high));
+    let fits = |l: &Place, h: &Place| (SIZES_M[0]..=SIZES_M[1]).contains(&(h.at_m - l.at_m));
+    let with = |l: Place| high.iter().filter(move |h| fits(&l, h)).map(move |h| [l, *h]);
+    low.iter().flat_map(|l| with(*l)).filter(|[l, h]| l.patch.is_none() || l.patch != h.patch).collect()
+}
+
+/// Without those that lie where a shown one, or an earlier one, lies.
+fn distinct(places: Vec<Place>) -> Vec<Place> {
+    let mut out: Vec<Place> = places.iter().filter(|place| place.patch.is_some()).copied().collect();
+    for place in places.iter().filter(|place| place.patch.is_none()) {
+        if out.iter().all(|other| (other.at_m - place.at_m).abs() > SAME_M) {
+            out.push(*place);
+        }
+    }
+    out
+}
+
+/// A box of two pairs of walls, where they fit each other, and how much of it is shown; its rim is still to come.
+fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, Proposal)> {
+    let spans = pairs.map(|pair| [pair[0].at_m, pair[1].at_m]);
+    let (mut is_shown, mut shown, mut lowest) = ([false; 4], 0.0, f64::INFINITY);
+    for (wall, flag) in is_shown.iter_mut().enumerate() {
+        let Some(number) = pairs[wall / 2][wall % 2].patch else { continue };
+        let patch = &patches[number];
+        let other = 1 - wall / 2;
+        let [from, to] = patch.span(&axes[other]);
+        let [low, high] = spans[other];
+        let overhang = (low - from).max(0.0) + (to - high).max(0.0);
+        let overlap = to.min(high) - from.max(low);
+        if overhang > OVERHANG_M.max(OVERHANG_SHARE * (to - from)) || overlap < LEAST_COVER * (high - low) {
+            continue;
+        }
+        *flag = true;
+        lowest = patch.span(&axes[2])[0].min(lowest);
+        shown += patch.readings.min(6000.0) * (overlap / (high - low));
+    }
+    let count = is_shown.iter().filter(|shown| **shown).count();
+    let [x, y, up] = *axes;
+    // What stands level stands on the support; what leans ends where its walls do.
+    let bottom = if up.z > 0.9999 { 0.0 } else { lowest };
+    (count >= 2).then(|| (shown, Proposal { axes: [x, y], up, spans, heights: [bottom, bottom], is_shown }))
+}
+
+/// The plan with each height at which its rim may be: where its walls end, where tilted panels meet its walls.
+fn with_rims(patches: &[Patch], plan: &Proposal) -> Vec<Proposal> {
+    let mut rims: Vec<(f64, f64)> = Vec::new();
+    for wall in 0..4 {
+        for patch in patches {
+            rims.extend(rim(patch, plan, wall));
+        }
+    }
+    rims.retain(|(at_m, _)| (HEIGHTS_M[0]..=HEIGHTS_M[1]).contains(&(at_m - plan.heights[0])));
+    let mut out = Vec::new();
+    while out.len() < MOST_RIMS {
+        let votes = |z: f64| rims.iter().filter(|r| (r.0 - z).abs() < SAME_RIM_M).map(|r| r.1).sum::<f64>();
+        let best = rims.iter().map(|r| (votes(r.0), r.0)).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+        if best.0 <= 0.0 {
+            break;
+        }
+        let near: Vec<_> = rims.iter().filter(|r| (r.0 - best.1).abs() < SAME_RIM_M).collect();
+        let at_m = near.iter().map(|r| r.0 * r.1).sum::<f64>() / best.0;
+        rims.retain(|r| (r.0 - best.1).abs() >= SAME_RIM_M);
+        out.push(Proposal { heights: [plan.heights[0], at_m], ..plan.clone() });
+    }
+    out
+}
+
+/// The height at which a patch says that a wall ends, and how loudly.
+fn rim(patch: &Patch, plan: &Proposal, wall: usize) -> Option<(f64, f64)> {
+    let (a, is_high) = (wall / 2, wall % 2 == 1);
+    let (axis, across, up) = (&plan.axes[a], &plan.axes[1 - a], &plan.up);
+    let at_m = plan.spans[a][usize::from(is_high)];
+    let ([from, to], [low, high]) = (patch.span(across), plan.spans[1 - a]);
+    let overlap = (to.min(high) - from.max(low)) / (high - low);
+    if overlap < LEAST_COVER || overlap * (high - low) < 0.5 * (to - from) {
+        return None;
+    }
+    let [near, far] = patch.span(axis);
+    let lean = patch.normal.dot(axis);
+    if patch.is_upright(up) && lean.abs() > LEAST_COS {
+        let inside = at_m - 0.015..=at_m + 0.015;
+        return inside.contains(&((near + far) / 2.0)).then(|| (patch.span(up)[1], overlap * OF_TOPS));
+    }
+    // A flap: its plane meets the wall's at the hinge, which is where it ends too.
+    let along = patch.level_direction(up)?;
+    let rise = patch.normal.dot(up);
+    if along.dot(across).abs() < LEAST_COS || rise.abs() < 0.2 {
+        return None;
+    }
+    let middle = across * ((from + to) / 2.0) + axis * at_m;
+    let z = (patch.distance_m - patch.normal.dot(&middle)) / rise;
+    let ends_there = [near, far].iter().any(|end| (end - at_m).abs() < 0.03);
+    ends_there.then_some((z, overlap))
+}
+
+/// A wall's top may be a flap's that goes on in its plane.
+const OF_TOPS: f64 = 0.7;

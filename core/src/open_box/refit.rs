@@ -1,0 +1,44 @@
+use super::ends::ends;
+use super::evidence::Sheet;
+use super::sight::Sight;
+use super::surfaces::{Labels, Present};
+use crate::cloud::CloudView;
+use crate::fit::{priors, solve, FitSettings, FittedBody, NotFitted, PartEnds, PartReadings, PartSegment, Problem, Sensor, Solution};
+use crate::geometry::{Plane, Vec3};
+
+/// Fewer readings tell nothing of a panel.
+const LEAST_READINGS: usize = 40;
+
+/// A box that leans more than this does not stand on the support.
+const LEVEL_COS: f64 = 0.9994;
+
+/// The body fitted to readings that are given to its panels (eq. 81, 82), in the level frame.
+///
+/// # Errors
+/// As of the fit.
+pub fn refit(
+    sight: &Sight,
+    body: &FittedBody,
+    present: &Present,
+    labels: &Labels,
+    settings: &FitSettings,
+) -> Result<Solution, NotFitted> {
+    let cloud =
+        CloudView { points: &sight.points, width: sight.width, height: sight.height, viewpoint: Some(sight.eye) };
+    let used: Vec<_> = labels.parts.iter().filter(|(_, points)| points.len() >= LEAST_READINGS).collect();
+    let sample = used.iter().max_by_key(|(_, points)| points.len()).map_or(&[][..], |(_, points)| points);
+    let sensor = Sensor::new(&cloud, sample, settings);
+    let parts = used.iter().map(|(role, points)| {
+        let sheet = Sheet::new(body, *role, &sight.eye);
+        let (center, normal) = sheet.at(0.0, sheet.length_m / 2.0);
+        let normal = if normal.dot(&(sight.eye - center)) < 0.0 { -normal } else { normal };
+        let told = PartEnds::Told(ends(sight, body, present, *role));
+        PartReadings::new(&PartSegment { role: *role, normal, center, ends: told, points }, body, &sensor, settings)
+    });
+    let support = Plane { normal: Vec3::z(), distance: 0.0 };
+    let lean = (body.input_from_object.rotation * Vec3::z()).z;
+    let stands = body.input_from_object.translation.vector.z.abs() < settings.stands_on_support_m && lean > LEVEL_COS;
+    let problem =
+        Problem { parts: parts.collect(), support: stands.then_some(support), priors: priors(body), settings: *settings };
+    solve(&problem, body)
+}

@@ -1,0 +1,128 @@
+//! A box without flaps, held against the depth image: each ray meets an outer face, or goes in by the opening and meets a wall's
+//! inner face or the base.
+
+use super::proposal::Proposal;
+use super::sight::Sight;
+use crate::geometry::Vec3;
+
+/// What the rays say of a box's four walls, in pixels of the image; walls as in `Proposal`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ShellLook {
+    /// Readings on outer faces and on inner ones.
+    pub met: [[f64; 2]; 4],
+    pub through: f64,
+    pub hidden: f64,
+}
+
+/// Every so many pixels of a row, and rows, are asked.
+const STRIDE: usize = 8;
+/// Proposals are off by this much beside the noise, metres.
+const MODEL_M: f64 = 0.009;
+
+impl ShellLook {
+    /// What speaks for the box. What hides it says little: of two boxes that are seen alike the smaller.
+    pub fn score(&self) -> f64 {
+        self.met.iter().flatten().sum::<f64>() - 2.0 * self.through - 0.05 * self.hidden
+    }
+}
+
+/// Every so many readings of the image, as seen from the eye; directions are not of unit length: they end in the reading.
+pub struct Rays {
+    to_reading: Vec<Vec3>,
+    tolerance: Vec<f64>,
+    columns: usize,
+    rows: usize,
+}
+
+impl Rays {
+    pub fn new(sight: &Sight) -> Self {
+        let (columns, rows) = (sight.width.div_ceil(STRIDE), sight.height.div_ceil(STRIDE));
+        let place = |k: usize| {
+            let (x, y) = ((k % columns * STRIDE + STRIDE / 2).min(sight.width - 1), (k / columns * STRIDE + STRIDE / 2).min(sight.height - 1));
+            sight.reading(y * sight.width + x).map_or(Vec3::repeat(f64::NAN), |p| p - sight.eye)
+        };
+        let to_reading: Vec<Vec3> = (0..columns * rows).map(place).collect();
+        // Per metre of range: cos and range come with the face.
+        let tolerance = to_reading.iter().map(|d| 3.0 * sight.sigma_m(d.norm()) / d.norm()).collect();
+        Self { to_reading, tolerance, columns, rows }
+    }
+
+    /// Looks at a box's shell.
+    pub fn look(&self, sight: &Sight, proposal: &Proposal) -> ShellLook {
+        let mut looked = ShellLook::default();
+        let Some([left, right, top, bottom]) = self.bounds(sight, proposal) else { return looked };
+        let eye = [sight.eye.dot(&proposal.axes[0]), sight.eye.dot(&proposal.axes[1]), sight.eye.dot(&proposal.up)];
+        let [x, y] = proposal.spans;
+        let slabs = [x, y, proposal.heights];
+        let pixels = (STRIDE * STRIDE) as f64;
+        for row in top..=bottom {
+            for column in left..=right {
+                let k = row * self.columns + column;
+                let ray = self.to_reading[k];
+                if !ray.x.is_finite() {
+                    continue;
+                }
+                let ray = [ray.dot(&proposal.axes[0]), ray.dot(&proposal.axes[1]), ray.dot(&proposal.up)];
+                let Some((face, at)) = meet(&eye, &ray, &slabs) else { continue };
+                let reach = ray[face.axis].abs();
+                let off = (1.0 - at) * reach;
+                let tolerance = self.tolerance[k] * reach + MODEL_M;
+                if off > tolerance {
+                    looked.through += pixels;
+                } else if off < -tolerance {
+                    looked.hidden += pixels;
+                } else if face.axis < 2 {
+                    looked.met[2 * face.axis + usize::from(face.is_high)][usize::from(face.is_inner)] += pixels;
+                }
+            }
+        }
+        looked
+    }
+
+    /// Of the box in the grid of rays: left, right, top, bottom, inclusive.
+    fn bounds(&self, sight: &Sight, proposal: &Proposal) -> Option<[usize; 4]> {
+        let mut bounds = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
+        for corner in 0..8 {
+            let pick = |a: usize| proposal.spans[a][corner >> a & 1];
+            let z = proposal.up * proposal.heights[corner >> 2];
+            let [u, v] = sight.pixel(&(proposal.axes[0] * pick(0) + proposal.axes[1] * pick(1) + z))?;
+            bounds = [bounds[0].min(u), bounds[1].max(u), bounds[2].min(v), bounds[3].max(v)];
+        }
+        let cell = |at: f64, count: usize| (at / STRIDE as f64).floor().clamp(0.0, count as f64 - 1.0) as usize;
+        let (width, height) = (sight.width as f64, sight.height as f64);
+        let is_seen = bounds[1] >= 0.0 && bounds[0] < width && bounds[3] >= 0.0 && bounds[2] < height;
+        is_seen.then(|| {
+            [cell(bounds[0], self.columns), cell(bounds[1], self.columns), cell(bounds[2], self.rows), cell(bounds[3], self.rows)]
+        })
+    }
+}
+
+struct Face {
+    axis: usize,
+    is_high: bool,
+    is_inner: bool,
+}
+
+/// The face that a ray meets of a box that is open at the top, and where, the reading being at 1.
+fn meet(eye: &[f64; 3], ray: &[f64; 3], slabs: &[[f64; 2]; 3]) -> Option<(Face, f64)> {
+    let (mut entry, mut exit) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
+    for axis in 0..3 {
+        let (a, b) = ((slabs[axis][0] - eye[axis]) / ray[axis], (slabs[axis][1] - eye[axis]) / ray[axis]);
+        let (near, far) = if a < b { (a, b) } else { (b, a) };
+        if near > entry.0 {
+            entry = (near, axis);
+        }
+        if far < exit.0 {
+            exit = (far, axis);
+        }
+    }
+    if entry.0 >= exit.0 || entry.0 <= 0.0 {
+        return None;
+    }
+    if entry.1 == 2 {
+        // By the opening, from above; from below nothing is seen of it.
+        let face = Face { axis: exit.1, is_high: ray[exit.1] > 0.0, is_inner: true };
+        return (ray[2] < 0.0).then_some((face, exit.0));
+    }
+    Some((Face { axis: entry.1, is_high: ray[entry.1] < 0.0, is_inner: false }, entry.0))
+}

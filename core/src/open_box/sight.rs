@@ -1,0 +1,152 @@
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion};
+
+use crate::cloud::{CloudView, Projection};
+use crate::geometry::{Plane, Vec3};
+use crate::perception::readings::Readings;
+use crate::perception::Scene;
+
+/// What a reading says of a surface that its ray should meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Says {
+    Met,
+    /// The reading lies behind it: the camera looked through.
+    Through,
+    /// The reading lies before it.
+    Hidden,
+    /// No reading.
+    Blank,
+    /// Beyond the image's edge, or behind the camera.
+    Outside,
+}
+
+/// The depth image in the level frame: z up from the support, the camera above the origin. Metres.
+pub struct Sight<'a> {
+    pub input_from_level: Isometry3<f64>,
+    pub eye: Vec3,
+    /// Row by row; a point with a coordinate that is not finite is no reading.
+    pub points: Vec<[f32; 3]>,
+    pub width: usize,
+    pub height: usize,
+    /// Angle between neighbouring pixels, rad.
+    pub pixel_rad: f64,
+    place_from_level: Matrix3<f64>,
+    readings: &'a Readings<'a>,
+}
+
+impl<'a> Sight<'a> {
+    /// `None` for a cloud without an image or a viewpoint.
+    pub fn new(cloud: &CloudView, readings: &'a Readings<'a>, scene: &Scene) -> Option<Self> {
+        cloud.viewpoint.filter(|_| cloud.is_organized())?;
+        let projection = Projection::of(cloud)?;
+        let input_from_level = level(&projection, &scene.up, scene.support.as_ref().unwrap_or(&lowest(scene)?));
+        let level_from_input = input_from_level.inverse();
+        let turn = level_from_input.rotation.to_rotation_matrix().cast::<f32>();
+        let shift = level_from_input.translation.vector.cast::<f32>();
+        let place = |p: &[f32; 3]| {
+            if Readings::is_finite(p) {
+                (turn * nalgebra::Vector3::from(*p) + shift).into()
+            } else {
+                [f32::NAN; 3]
+            }
+        };
+        let rays = projection.ray_from_pixel()?;
+        let (column, row) = (cloud.width as f64 / 2.0, cloud.height as f64 / 2.0);
+        let ray = |x: f64, y: f64| (rays * Vec3::new(x, y, 1.0)).normalize();
+        let step = ray(column, row).cross(&ray(column + 1.0, row)).norm();
+        Some(Self {
+            input_from_level,
+            eye: level_from_input.transform_point(&projection.origin.into()).coords,
+            points: cloud.points.iter().map(place).collect(),
+            width: cloud.width,
+            height: cloud.height,
+            pixel_rad: step,
+            place_from_level: projection.pixel_from_ray() * input_from_level.rotation.to_rotation_matrix().matrix(),
+            readings,
+        })
+    }
+
+    pub fn to_level(&self, input: &Vec3) -> Vec3 {
+        self.input_from_level.inverse_transform_point(&(*input).into()).coords
+    }
+
+    /// Column and row that see a point; `None` behind the camera.
+    pub fn pixel(&self, point: &Vec3) -> Option<[f64; 2]> {
+        let place = self.place_from_level * (point - self.eye);
+        (place.z > 1e-3).then(|| [place.x / place.z, place.y / place.z])
+    }
+
+    /// The pixel that sees a point, where the image has it.
+    pub fn index(&self, point: &Vec3) -> Option<usize> {
+        let [x, y] = self.pixel(point)?;
+        let (x, y) = (x.round(), y.round());
+        let within = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64;
+        within.then(|| y as usize * self.width + x as usize)
+    }
+
+    pub fn reading(&self, index: usize) -> Option<Vec3> {
+        let [x, y, z] = self.points[index];
+        x.is_finite().then(|| Vec3::new(f64::from(x), f64::from(y), f64::from(z)))
+    }
+
+    /// Standard deviation of a reading along its ray, metres.
+    pub fn sigma_m(&self, range_m: f64) -> f64 {
+        self.readings.sigma_at_range_m(range_m)
+    }
+
+    /// How far off a surface under `cos` to the ray a reading may lie that is on it, of a model known within `model_m`.
+    pub fn tolerance_m(&self, range_m: f64, cos: f64, model_m: f64) -> f64 {
+        SIGMAS * self.sigma_m(range_m) * cos.abs() + model_m
+    }
+
+    /// What the camera says of a point of a surface with that normal (either way round); with the reading and its distance
+    /// off the surface towards the camera where it has one.
+    pub fn ask(&self, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<(Vec3, f64)>) {
+        let Some(index) = self.index(point) else { return (Says::Outside, None) };
+        let Some(reading) = self.reading(index) else { return (Says::Blank, None) };
+        let ray = point - self.eye;
+        let range = ray.norm();
+        let toward = -normal.dot(&ray).signum();
+        let cos = normal.dot(&ray) / range;
+        let off = toward * normal.dot(&(reading - point));
+        let tolerance = self.tolerance_m(range, cos, model_m);
+        let says = if off < -tolerance {
+            Says::Through
+        } else if off > tolerance {
+            Says::Hidden
+        } else {
+            Says::Met
+        };
+        (says, Some((reading, off)))
+    }
+
+    /// Pixels that a piece of surface of that area fills.
+    pub fn pixels(&self, point: &Vec3, normal: &Vec3, area_m2: f64) -> f64 {
+        let ray = point - self.eye;
+        let range = ray.norm();
+        area_m2 * (normal.dot(&ray) / range).abs() / (range * self.pixel_rad).powi(2)
+    }
+}
+
+/// Standard deviations within which a reading is on a surface.
+const SIGMAS: f64 = 3.0;
+
+/// The support as z = 0, x the way the camera looks, the camera above the origin.
+fn level(projection: &Projection, up: &Vec3, support: &Plane) -> Isometry3<f64> {
+    let forward = projection.optical_axis();
+    let flat = forward - up * up.dot(&forward);
+    // Straight down: any direction does.
+    let x = flat.try_normalize(1e-3).unwrap_or_else(|| {
+        let other = if up.x.abs() < 0.7 { Vec3::x() } else { Vec3::y() };
+        (other - up * up.dot(&other)).normalize()
+    });
+    let y = up.cross(&x);
+    let rotation = nalgebra::Rotation3::from_basis_unchecked(&[x, y, *up]);
+    let origin = projection.origin - up * support.height_of(&projection.origin);
+    Isometry3::from_parts(Translation3::from(origin), UnitQuaternion::from_rotation_matrix(&rotation))
+}
+
+/// Stands in for a support that nobody saw: level, through the lowest corner of any segment.
+fn lowest(scene: &Scene) -> Option<Plane> {
+    let heights = scene.segments.hulls.iter().flatten().map(|corner| scene.up.dot(corner));
+    Some(Plane { normal: scene.up, distance: heights.reduce(f64::min)? })
+}
