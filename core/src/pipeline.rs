@@ -85,7 +85,7 @@ fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[
         stage_seconds: Vec::new(),
     };
     for one in &found {
-        let Some((object, parts)) = open_box::answer(one, &models[0].template, &sight, &settings) else { continue };
+        let Some((object, parts)) = open_box::answer(one, &models[models.len().min(2) - 1].template, &sight, &settings) else { continue };
         for (part, points) in parts {
             for point in points {
                 answer.object_of_point[point as usize] = answer.objects.len() as i16;

@@ -2,6 +2,7 @@ use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
 use super::evidence::{Evidence, Sheet};
 use super::flap_scan::{scan, HingeLine, ScanRange, ScannedFlap};
+use super::lean::lean;
 use super::patch::Patch;
 use super::proposal::{proposals, Proposal};
 use super::refit::refit;
@@ -173,6 +174,47 @@ fn with_flaps(body: &FittedBody, flaps: &[Option<ScannedFlap>; 4]) -> (FittedBod
     (out, present)
 }
 
+/// Readings of other surfaces lean more than this off the panel that they were given to: the tangent.
+const MOST_LEAN: f64 = 0.35;
+/// Parts of fewer readings are not called seen.
+const LEAST_READINGS: usize = 150;
+
+/// Parts whose readings are few, or lie across them.
+fn drop_unsure(sight: &Sight, body: &FittedBody, labels: &mut Labels) {
+    for (role, points) in &mut labels.parts {
+        let leans = || lean(sight, body, *role, points).is_none_or(|lean| lean > MOST_LEAN);
+        if points.len() < LEAST_READINGS || leans() {
+            points.clear();
+        }
+    }
+}
+
+/// The tuck flap on each flap's free edge.
+fn scan_tucks(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64) -> [Option<ScannedFlap>; 4] {
+    std::array::from_fn(|k| {
+        if !present.flaps[k] {
+            return None;
+        }
+        let longest_m = (0.45 * body.get(layout::flap(k) + layout::FLAP_LENGTH)).min(0.12);
+        let range = ScanRange { angles_rad: TUCK_ANGLES_RAD, longest_m, model_m };
+        scan(sight, &HingeLine::of_flap(body, k), &range).filter(is_flap)
+    })
+}
+
+const TUCK_ANGLES_RAD: [f64; 2] = [-1.9, 2.2];
+
+fn with_tucks(body: &FittedBody, present: &Present, tucks: &[Option<ScannedFlap>; 4]) -> (FittedBody, Present) {
+    let (mut out, mut present) = (body.clone(), *present);
+    for (k, tuck) in tucks.iter().enumerate() {
+        let Some(tuck) = tuck else { continue };
+        present.tucks[k] = true;
+        out.numbers[layout::tuck(k) + layout::TUCK_ANGLE] = tuck.angle_rad;
+        out.numbers[layout::tuck(k) + layout::TUCK_LENGTH] = tuck.length_m;
+        out.numbers[layout::tuck(k) + layout::TUCK_WIDTH] = body.get(layout::flap(k) + layout::FLAP_WIDTH) - 0.01;
+    }
+    (out, present)
+}
+
 /// From a shell to a fitted box.
 fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox> {
     let (body, present) = with_flaps(&body_of(&shell.proposal), &shell.flaps);
@@ -180,10 +222,16 @@ fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox
     let solution = refit(sight, &body, &present, &labels, settings).ok()?;
     check(&solution.body).ok()?;
     let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, FINE_M + 0.001));
+    let mut labels = label(sight, &body, &present, FINE_M);
+    drop_unsure(sight, &body, &mut labels);
+    let solution = refit(sight, &body, &present, &labels, settings).ok()?;
+    check(&solution.body).ok()?;
+    let (body, present) = with_tucks(&solution.body, &present, &scan_tucks(sight, &solution.body, &present, FINE_M));
     let labels = label(sight, &body, &present, FINE_M);
     let solution = refit(sight, &body, &present, &labels, settings).ok()?;
     check(&solution.body).ok()?;
-    let labels = label(sight, &solution.body, &present, FINE_M);
+    let mut labels = label(sight, &solution.body, &present, FINE_M);
+    drop_unsure(sight, &solution.body, &mut labels);
     let evidence: Vec<(Role, Evidence)> = roles(&present)
         .into_iter()
         .map(|role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M)))

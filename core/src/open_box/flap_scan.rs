@@ -1,7 +1,7 @@
 //! Each rim edge is scanned for its flap: at every angle the readings are asked whether a board leaves the edge there.
 
 use super::sight::{Says, Sight};
-use crate::fit::{FittedBody, Rim};
+use crate::fit::{flap_end, layout, FittedBody, Rim};
 use crate::geometry::Vec3;
 
 /// A flap as the scan sees it.
@@ -49,6 +49,25 @@ impl HingeLine {
             up: turn * Vec3::z(),
             parent: -(turn * Vec3::z()),
             half_m: body.edge_m(k) / 2.0,
+        }
+    }
+
+    /// The free edge of flap `k`, for its tuck flap.
+    pub fn of_flap(body: &FittedBody, k: usize) -> Self {
+        let rim = Rim::new(body, k);
+        let [inward, above] = flap_end(body, k);
+        let turn = body.input_from_object.rotation;
+        let (along, across) = rim.directions();
+        let (sin, cos) = body.get(layout::flap(k) + layout::FLAP_ANGLE).sin_cos();
+        let way = turn * (across * cos + Vec3::z() * sin);
+        Self {
+            middle: body.to_input(&rim.place(body.get(layout::flap(k) + layout::FLAP_OFFSET), inward, above)),
+            along: turn * along,
+            closed: way,
+            // A tuck flap's position grows against its flap's.
+            up: turn * (across * sin - Vec3::z() * cos),
+            parent: -way,
+            half_m: body.get(layout::flap(k) + layout::FLAP_WIDTH) / 2.0 - body.get(layout::flap(k) + layout::FLAP_TAPER),
         }
     }
 

@@ -5,6 +5,7 @@ mod ends;
 mod evidence;
 mod find;
 mod flap_scan;
+mod lean;
 mod patch;
 mod proposal;
 mod refit;

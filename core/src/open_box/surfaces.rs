@@ -74,7 +74,7 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64) 
 }
 
 /// A panel's face that the camera sees, and its ends.
-struct Surface {
+pub struct Surface {
     role: Role,
     rim: Rim,
     /// Of the base: the rims of all sides.
@@ -99,7 +99,7 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(sight: &Sight, body: &FittedBody, role: Role) -> Self {
+    pub fn new(sight: &Sight, body: &FittedBody, role: Role) -> Self {
         let k = role.side();
         let rim = Rim::new(body, k);
         let flap = |place: usize| body.get(layout::flap(k) + place);
@@ -159,6 +159,18 @@ impl Surface {
             curl,
             from,
         }
+    }
+
+    /// Of a point of the object's frame: along the hinge or rim, away from it, off the face.
+    pub fn place(&self, q: &Vec3) -> Option<[f64; 3]> {
+        let off = self.off(q, &Vec3::z())?.0;
+        let at = self.rim.locate(*q);
+        let away = match self.role {
+            Role::Base => at.inward,
+            Role::Side(_) => -at.above,
+            _ => self.cos * (at.inward - self.from[0]) + self.sin * (at.above - self.from[1]),
+        };
+        Some([at.along, away, off])
     }
 
     /// How far off the face a point of the object's frame lies, and the ray's share along the normal; `None` beyond its ends.
