@@ -148,7 +148,7 @@ fn body_of(proposal: &Proposal) -> FittedBody {
     body
 }
 
-const FLAP_ANGLES_RAD: [f64; 2] = [-0.35, 4.3];
+const FLAP_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
 
 fn scan_flaps(sight: &Sight, body: &FittedBody, model_m: f64) -> [Option<ScannedFlap>; 4] {
     std::array::from_fn(|k| {
@@ -187,6 +187,23 @@ fn drop_unsure(sight: &Sight, body: &FittedBody, labels: &mut Labels) {
             points.clear();
         }
     }
+    for k in 0..4 {
+        if labels.of(Role::Flap(k)).is_empty() {
+            labels.clear(Role::Tuck(k));
+        }
+    }
+}
+
+const LEAST_FLAP_M: f64 = 0.012;
+
+/// Without flaps that the fit has made vanish.
+fn long_enough(body: &FittedBody, present: &Present) -> Present {
+    let mut out = *present;
+    for k in 0..4 {
+        out.flaps[k] &= body.get(layout::flap(k) + layout::FLAP_LENGTH) > LEAST_FLAP_M;
+        out.tucks[k] &= out.flaps[k] && body.get(layout::tuck(k) + layout::TUCK_LENGTH) > LEAST_FLAP_M;
+    }
+    out
 }
 
 /// The tuck flap on each flap's free edge.
@@ -230,6 +247,7 @@ fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox
     let labels = label(sight, &body, &present, FINE_M);
     let solution = refit(sight, &body, &present, &labels, settings).ok()?;
     check(&solution.body).ok()?;
+    let present = long_enough(&solution.body, &present);
     let mut labels = label(sight, &solution.body, &present, FINE_M);
     drop_unsure(sight, &solution.body, &mut labels);
     let evidence: Vec<(Role, Evidence)> = roles(&present)

@@ -2,7 +2,7 @@
 
 use super::sight::{Says, Sight};
 use crate::fit::{flap_end, layout, FittedBody, Rim};
-use crate::geometry::Vec3;
+use crate::geometry::{Plane, Vec3};
 
 /// A flap as the scan sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +34,8 @@ pub struct HingeLine {
     /// From the edge into the panel that it belongs to.
     pub parent: Vec3,
     pub half_m: f64,
+    /// The base's upper face; the support is level.
+    base: Plane,
 }
 
 impl HingeLine {
@@ -49,6 +51,7 @@ impl HingeLine {
             up: turn * Vec3::z(),
             parent: -(turn * Vec3::z()),
             half_m: body.edge_m(k) / 2.0,
+            base: base_plane(body),
         }
     }
 
@@ -68,25 +71,41 @@ impl HingeLine {
             up: turn * (across * sin - Vec3::z() * cos),
             parent: -way,
             half_m: body.get(layout::flap(k) + layout::FLAP_WIDTH) / 2.0 - body.get(layout::flap(k) + layout::FLAP_TAPER),
+            base: base_plane(body),
         }
     }
 
-    /// What the camera says of a point of a board on the edge; a reading of the panel that the edge belongs to says nothing.
+    /// What the camera says of a point of a board on the edge; a reading of the panel that the edge belongs to, of
+    /// the base or of the support says nothing.
     fn ask(&self, sight: &Sight, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<Vec3>) {
         let (says, reading) = sight.ask(point, normal, model_m);
         let Some((reading, _)) = reading else { return (says, None) };
         let from = reading - self.middle;
         let off = self.parent.cross(&self.along).dot(&from).abs();
-        if says == Says::Met && self.parent.dot(&from) > -0.002 && off < model_m + HALF_BOARD_M {
+        let on_parent = self.parent.dot(&from) > -0.002 && off < model_m + HALF_BOARD_M;
+        if says == Says::Met && (on_parent || self.is_ground(sight, &reading, model_m)) {
             return (Says::Blank, None);
         }
         (says, Some(reading))
+    }
+
+    fn is_ground(&self, sight: &Sight, reading: &Vec3, model_m: f64) -> bool {
+        let ray = reading - sight.eye;
+        let range = ray.norm();
+        let tolerance = sight.tolerance_m(range, ray.z / range, model_m);
+        reading.z.abs() < tolerance || self.base.height_of(reading).abs() < tolerance
     }
 
     fn directions(&self, angle: f64) -> (Vec3, Vec3) {
         let (sin, cos) = angle.sin_cos();
         (self.closed * cos + self.up * sin, self.up * cos - self.closed * sin)
     }
+}
+
+fn base_plane(body: &FittedBody) -> Plane {
+    let normal = body.input_from_object.rotation * Vec3::z();
+    let distance = normal.dot(&body.input_from_object.translation.vector) + body.get(layout::THICKNESS);
+    Plane { normal, distance }
 }
 
 /// What a scan may find. Radians, metres.

@@ -23,6 +23,12 @@ impl Labels {
     }
 }
 
+impl Labels {
+    pub fn clear(&mut self, role: Role) {
+        self.parts.iter_mut().filter(|(r, _)| *r == role).for_each(|(_, points)| points.clear());
+    }
+}
+
 /// Roles in the order of places.
 pub fn roles(present: &Present) -> Vec<Role> {
     let mut out = vec![Role::Base];
