@@ -47,6 +47,12 @@ pub struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
+    /// The opening, as a sheet that leaves side 0's rim.
+    pub fn of_opening(body: &'a FittedBody, eye: &Vec3) -> Self {
+        let base = Self::new(body, Role::Base, eye);
+        Self { from: [0.0, 0.0], face: 0.0, ..base }
+    }
+
     /// The face that an eye in the body's world sees.
     pub fn new(body: &'a FittedBody, role: Role, eye: &Vec3) -> Self {
         let k = role.side();

@@ -4,7 +4,7 @@ use super::evidence::{Evidence, Sheet};
 use super::flap_scan::{scan, HingeLine, ScanRange, ScannedFlap};
 use super::lean::lean;
 use super::patch::Patch;
-use super::proposal::{proposals, Proposal};
+use super::proposal::{proposals, Proposal, OF_FLAPS};
 use super::refit::refit;
 use super::shell::{Rays, ShellLook};
 use super::sight::Sight;
@@ -45,7 +45,7 @@ pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBo
     for shell in &mut shells {
         let body = body_of(&shell.proposal);
         shell.flaps = scan_flaps(sight, &body, COARSE_M);
-        shell.score += shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
+        shell.score = shell.looked.score() + shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
     }
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut found: Vec<FoundBox> = Vec::new();
@@ -57,7 +57,7 @@ pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBo
         fitted.push(shell);
         found.extend(grow(sight, shell, settings));
     }
-    choose(found)
+    choose(found, sight.width).into_iter().filter_map(|one| finish(sight, one, settings)).collect()
 }
 
 /// How well proposals and fitted bodies are known, beside the noise.
@@ -72,7 +72,7 @@ pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
     for proposal in all_proposals(&patches) {
         {
             let looked = rays.look(sight, &proposal);
-            let score = looked.score();
+            let score = looked.score() + OF_FLAPS * proposal.on_flaps;
             if score > LEAST_SCORE {
                 all.push(Shell { proposal, looked, score, flaps: [None; 4] });
             }
@@ -181,9 +181,10 @@ const LEAST_READINGS: usize = 150;
 
 /// Parts whose readings are few, or lie across them.
 fn drop_unsure(sight: &Sight, body: &FittedBody, labels: &mut Labels) {
+    let stride = labels.stride;
     for (role, points) in &mut labels.parts {
         let leans = || lean(sight, body, *role, points).is_none_or(|lean| lean > MOST_LEAN);
-        if points.len() < LEAST_READINGS || leans() {
+        if points.len() * stride * stride < LEAST_READINGS || leans() {
             points.clear();
         }
     }
@@ -232,40 +233,76 @@ fn with_tucks(body: &FittedBody, present: &Present, tucks: &[Option<ScannedFlap>
     (out, present)
 }
 
-/// From a shell to a fitted box.
+/// Every so many columns and rows are asked while boxes still compete.
+const COARSE_STRIDE: usize = 3;
+
+/// From a shell to a box fitted to some of its readings.
 fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox> {
+    let settings = FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings };
     let (body, present) = with_flaps(&body_of(&shell.proposal), &shell.flaps);
-    let labels = label(sight, &body, &present, COARSE_M);
-    let solution = refit(sight, &body, &present, &labels, settings).ok()?;
+    let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
+    let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
     check(&solution.body).ok()?;
     let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, FINE_M + 0.001));
-    let mut labels = label(sight, &body, &present, FINE_M);
+    let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
+    drop_unsure(sight, &body, &mut labels);
+    let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
+    check(&solution.body).ok()?;
+    Some(weigh(sight, solution, present, COARSE_STRIDE))
+}
+
+/// A box that has won, with its tuck flaps, fitted to all of its readings.
+fn finish(sight: &Sight, found: FoundBox, settings: &FitSettings) -> Option<FoundBox> {
+    let body = &found.solution.body;
+    let (body, present) = with_tucks(body, &found.present, &scan_tucks(sight, body, &found.present, FINE_M));
+    let mut labels = label(sight, &body, &present, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);
     let solution = refit(sight, &body, &present, &labels, settings).ok()?;
     check(&solution.body).ok()?;
-    let (body, present) = with_tucks(&solution.body, &present, &scan_tucks(sight, &solution.body, &present, FINE_M));
-    let labels = label(sight, &body, &present, FINE_M);
-    let solution = refit(sight, &body, &present, &labels, settings).ok()?;
-    check(&solution.body).ok()?;
-    let present = long_enough(&solution.body, &present);
-    let mut labels = label(sight, &solution.body, &present, FINE_M);
-    drop_unsure(sight, &solution.body, &mut labels);
-    let evidence: Vec<(Role, Evidence)> = roles(&present)
-        .into_iter()
-        .map(|role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M)))
-        .collect();
-    let of = |(role, e): &(Role, Evidence)| if *role == Role::Base { -2.0 * e.through } else { e.met - 2.0 * e.through };
-    let score = evidence.iter().map(of).sum();
-    Some(FoundBox { solution, present, labels, evidence, score })
+    Some(weigh(sight, solution, present, 1))
 }
 
+/// Readings on its panels, each counted once, less twice those through them, less those that close the opening and are of no
+/// flap. The base says nothing: the floor agrees as well.
+fn score(sight: &Sight, body: &FittedBody, labels: &Labels, evidence: &[(Role, Evidence)]) -> f64 {
+    let lid = Sheet::of_opening(body, &sight.eye).look(sight, FINE_M).met;
+    let is_closed = |role: Role| matches!(role, Role::Flap(k) if body.get(layout::flap(k) + layout::FLAP_ANGLE).abs() < CLOSED_RAD);
+    let on = |wanted: &dyn Fn(Role) -> bool| -> f64 {
+        labels.parts.iter().filter(|(role, _)| wanted(*role)).map(|(_, points)| labels.count(points) as f64).sum()
+    };
+    let through: f64 = evidence.iter().map(|(_, e)| e.through).sum();
+    on(&|role| role != Role::Base) - 2.0 * through - (lid - on(&is_closed)).max(0.0)
+}
+
+const CLOSED_RAD: f64 = 0.3;
+
+/// A fitted box with its readings and what the rays say of its panels.
+fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize) -> FoundBox {
+    let present = long_enough(&solution.body, &present);
+    let mut labels = label(sight, &solution.body, &present, FINE_M, stride);
+    drop_unsure(sight, &solution.body, &mut labels);
+    let look = |role: Role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M));
+    let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(look).collect();
+    let score = score(sight, &solution.body, &labels, &evidence);
+    FoundBox { solution, present, labels, evidence, score }
+}
+
+/// Readings are shared by cells of so many pixels: boxes were not asked at the same ones.
+const COARSE_CELL: usize = 4;
+
 /// Takes the best, and of the rest those that leave its readings alone.
-fn choose(mut found: Vec<FoundBox>) -> Vec<FoundBox> {
+fn choose(mut found: Vec<FoundBox>, width: usize) -> Vec<FoundBox> {
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut out: Vec<FoundBox> = Vec::new();
     let mut taken = std::collections::BTreeSet::new();
     for candidate in found {
-        let points: Vec<u32> = candidate.labels.parts.iter().flat_map(|(_, points)| points).copied().collect();
+        let coarse = |index: &u32| {
+            let (column, row) = (*index as usize % width / COARSE_CELL, *index as usize / width / COARSE_CELL);
+            (row * width + column) as u32
+        };
+        let mut points: Vec<u32> = candidate.labels.parts.iter().flat_map(|(_, points)| points).map(coarse).collect();
+        points.sort_unstable();
+        points.dedup();
         let shared = points.iter().filter(|point| taken.contains(*point)).count();
         if candidate.score > LEAST_SCORE && 4 * shared <= points.len() {
             taken.extend(points);

@@ -11,16 +11,25 @@ pub struct Proposal {
     pub up: Vec3,
     pub spans: [[f64; 2]; 2],
     pub heights: [f64; 2],
-    /// For each wall (low and high along the first direction, then the second) whether a segment shows it.
-    pub is_shown: [bool; 4],
+    /// Readings of segments that would be its flaps, shares that lie along its walls.
+    pub on_flaps: f64,
 }
 
 /// Where a wall's outer face may lie along a direction.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     at_m: f64,
-    /// The patch that shows it.
-    patch: Option<usize>,
+    shown_by: ShownBy,
+}
+
+/// What shows where a wall is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ShownBy {
+    Wall(usize),
+    /// A flap that hangs on it.
+    Flap(usize),
+    /// Where walls across end.
+    Nothing,
 }
 
 /// Board taken for what is seen from inside, metres.
@@ -40,6 +49,8 @@ const LEAST_COVER: f64 = 0.2;
 const MOST: usize = 400;
 const MOST_RIMS: usize = 5;
 const SAME_RIM_M: f64 = 0.010;
+/// A flap shows a wall's place less well.
+pub const OF_FLAPS: f64 = 0.5;
 
 /// All that patches propose for boxes that stand in this direction.
 pub fn proposals(patches: &[Patch], frame: &[Vec3; 3], yaw: f64) -> Vec<Proposal> {
@@ -68,7 +79,7 @@ fn pairs(patches: &[Patch], axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
         if patch.is_upright(up) && patch.normal.dot(axis).abs() > LEAST_COS {
             let [from, to] = patch.span(axis);
             let at_m = (from + to) / 2.0;
-            let shown = |at_m: f64| Place { at_m, patch: Some(number) };
+            let shown = |at_m: f64| Place { at_m, shown_by: ShownBy::Wall(number) };
             // Seen from outside it is the wall on the camera's side, from inside the one across.
             if patch.normal.dot(axis) > 0.0 {
                 low.push(shown(at_m - BOARD_M));
@@ -79,31 +90,38 @@ fn pairs(patches: &[Patch], axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
             }
         }
     }
-    for patch in patches {
-        let Some(along) = patch.level_direction(up) else { continue };
+    for (number, patch) in patches.iter().enumerate() {
+        let along = patch.level_direction(up);
+        let runs = |direction: &Vec3| along.is_none_or(|along| along.dot(direction).abs() > LEAST_COS);
         // Walls across end where these stand; flaps hang on them with one of their edges.
-        let is_across = patch.is_upright(up) && along.dot(axis).abs() > LEAST_COS;
-        let is_flap = !patch.is_upright(up) && along.dot(across).abs() > LEAST_COS;
-        if is_across || is_flap {
-            let [from, to] = patch.span(axis);
-            for at_m in [from, to] {
-                low.push(Place { at_m, patch: None });
-                high.push(Place { at_m, patch: None });
-            }
+        let shown_by = if patch.is_upright(up) && runs(axis) {
+            ShownBy::Nothing
+        } else if !patch.is_upright(up) && runs(across) && patch.span(&Vec3::z())[1] > HEIGHTS_M[0] {
+            ShownBy::Flap(number)
+        } else {
+            continue;
+        };
+        for at_m in patch.span(axis) {
+            low.push(Place { at_m, shown_by });
+            high.push(Place { at_m, shown_by });
         }
     }
     let (low, high) = (distinct(low), distinct(high));
     let fits = |l: &Place, h: &Place| (SIZES_M[0]..=SIZES_M[1]).contains(&(h.at_m - l.at_m));
     let with = |l: Place| high.iter().filter(move |h| fits(&l, h)).map(move |h| [l, *h]);
-    low.iter().flat_map(|l| with(*l)).filter(|[l, h]| l.patch.is_none() || l.patch != h.patch).collect()
+    low.iter().flat_map(|l| with(*l)).filter(|[l, h]| l.shown_by == ShownBy::Nothing || l.shown_by != h.shown_by).collect()
 }
 
-/// Without those that lie where a shown one, or an earlier one, lies.
+/// Without those that lie where one lies that is shown better, or an earlier one.
 fn distinct(places: Vec<Place>) -> Vec<Place> {
-    let mut out: Vec<Place> = places.iter().filter(|place| place.patch.is_some()).copied().collect();
-    for place in places.iter().filter(|place| place.patch.is_none()) {
-        if out.iter().all(|other| (other.at_m - place.at_m).abs() > SAME_M) {
-            out.push(*place);
+    let is_wall = |place: &&Place| matches!(place.shown_by, ShownBy::Wall(_));
+    let mut out: Vec<Place> = places.iter().filter(is_wall).copied().collect();
+    for by_flap in [true, false] {
+        for place in places.iter().filter(|place| !is_wall(place)) {
+            let is_flap = matches!(place.shown_by, ShownBy::Flap(_));
+            if is_flap == by_flap && out.iter().all(|other| (other.at_m - place.at_m).abs() > SAME_M) {
+                out.push(*place);
+            }
         }
     }
     out
@@ -112,9 +130,13 @@ fn distinct(places: Vec<Place>) -> Vec<Place> {
 /// A box of two pairs of walls, where they fit each other, and how much of it is shown; its rim is still to come.
 fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, Proposal)> {
     let spans = pairs.map(|pair| [pair[0].at_m, pair[1].at_m]);
-    let (mut is_shown, mut shown, mut lowest) = ([false; 4], 0.0, f64::INFINITY);
-    for (wall, flag) in is_shown.iter_mut().enumerate() {
-        let Some(number) = pairs[wall / 2][wall % 2].patch else { continue };
+    let (mut walls, mut flaps, mut shown, mut by_flaps, mut lowest) = (0, 0, 0.0, 0.0, f64::INFINITY);
+    for wall in 0..4 {
+        let (number, is_wall) = match pairs[wall / 2][wall % 2].shown_by {
+            ShownBy::Wall(number) => (number, true),
+            ShownBy::Flap(number) => (number, false),
+            ShownBy::Nothing => continue,
+        };
         let patch = &patches[number];
         let other = 1 - wall / 2;
         let [from, to] = patch.span(&axes[other]);
@@ -124,15 +146,24 @@ fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
         if overhang > OVERHANG_M.max(OVERHANG_SHARE * (to - from)) || overlap < LEAST_COVER * (high - low) {
             continue;
         }
-        *flag = true;
-        lowest = patch.span(&axes[2])[0].min(lowest);
-        shown += patch.readings.min(6000.0) * (overlap / (high - low));
+        let readings = patch.readings.min(6000.0) * (overlap / (high - low));
+        if is_wall {
+            walls += 1;
+            lowest = patch.span(&axes[2])[0].min(lowest);
+            shown += readings;
+        } else {
+            flaps += 1;
+            by_flaps += readings;
+        }
     }
-    let count = is_shown.iter().filter(|shown| **shown).count();
     let [x, y, up] = *axes;
     // What stands level stands on the support; what leans ends where its walls do.
     let bottom = if up.z > 0.9999 { 0.0 } else { lowest };
-    (count >= 2).then(|| (shown, Proposal { axes: [x, y], up, spans, heights: [bottom, bottom], is_shown }))
+    let count = walls + flaps;
+    let is_enough = bottom.is_finite() && (walls >= 2 || count >= 3);
+    is_enough.then(|| {
+        (shown + OF_FLAPS * by_flaps, Proposal { axes: [x, y], up, spans, heights: [bottom, bottom], on_flaps: by_flaps })
+    })
 }
 
 /// The plan with each height at which its rim may be: where its walls end, where tilted panels meet its walls.
@@ -176,9 +207,8 @@ fn rim(patch: &Patch, plan: &Proposal, wall: usize) -> Option<(f64, f64)> {
         return inside.contains(&((near + far) / 2.0)).then(|| (patch.span(up)[1], overlap * OF_TOPS));
     }
     // A flap: its plane meets the wall's at the hinge, which is where it ends too.
-    let along = patch.level_direction(up)?;
     let rise = patch.normal.dot(up);
-    if along.dot(across).abs() < LEAST_COS || rise.abs() < 0.2 {
+    if patch.level_direction(up).is_some_and(|along| along.dot(across).abs() < LEAST_COS) || rise.abs() < 0.2 {
         return None;
     }
     let middle = across * ((from + to) / 2.0) + axis * at_m;

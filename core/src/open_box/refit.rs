@@ -7,7 +7,8 @@ use crate::fit::{priors, solve, FitSettings, FittedBody, NotFitted, PartEnds, Pa
 use crate::geometry::{Plane, Vec3};
 
 /// Fewer readings tell nothing of a panel.
-const LEAST_READINGS: usize = 40;
+const LEAST_READINGS: usize = 60;
+const LEAST_SAMPLES: usize = 8;
 
 /// A box that leans more than this does not stand on the support.
 const LEVEL_COS: f64 = 0.9994;
@@ -25,7 +26,7 @@ pub fn refit(
 ) -> Result<Solution, NotFitted> {
     let cloud =
         CloudView { points: &sight.points, width: sight.width, height: sight.height, viewpoint: Some(sight.eye) };
-    let used: Vec<_> = labels.parts.iter().filter(|(_, points)| points.len() >= LEAST_READINGS).collect();
+    let used: Vec<_> = labels.parts.iter().filter(|(_, points)| labels.count(points) >= LEAST_READINGS && points.len() >= LEAST_SAMPLES).collect();
     let sample = used.iter().max_by_key(|(_, points)| points.len()).map_or(&[][..], |(_, points)| points);
     let sensor = Sensor::new(&cloud, sample, settings);
     let parts = used.iter().map(|(role, points)| {

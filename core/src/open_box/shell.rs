@@ -12,17 +12,21 @@ pub struct ShellLook {
     pub met: [[f64; 2]; 4],
     pub through: f64,
     pub hidden: f64,
+    /// Readings that close the opening.
+    pub lid: f64,
 }
 
 /// Every so many pixels of a row, and rows, are asked.
 const STRIDE: usize = 8;
 /// Proposals are off by this much beside the noise, metres.
 const MODEL_M: f64 = 0.009;
+/// What lies this near to the rim's plane, and over the opening, closes it.
+const LID_M: f64 = 0.006;
 
 impl ShellLook {
     /// What speaks for the box. What hides it says little: of two boxes that are seen alike the smaller.
     pub fn score(&self) -> f64 {
-        self.met.iter().flatten().sum::<f64>() - 2.0 * self.through - 0.05 * self.hidden
+        self.met.iter().flatten().sum::<f64>() - 2.0 * self.through - self.lid - 0.05 * self.hidden
     }
 }
 
@@ -64,6 +68,10 @@ impl Rays {
                 }
                 let ray = [ray.dot(&proposal.axes[0]), ray.dot(&proposal.axes[1]), ray.dot(&proposal.up)];
                 let Some((face, at)) = meet(&eye, &ray, &slabs) else { continue };
+                if face.is_inner && (eye[2] + ray[2] - slabs[2][1]).abs() < LID_M + self.tolerance[k] * ray[2].abs() {
+                    looked.lid += pixels;
+                    continue;
+                }
                 let reach = ray[face.axis].abs();
                 let off = (1.0 - at) * reach;
                 let tolerance = self.tolerance[k] * reach + MODEL_M;

@@ -15,6 +15,8 @@ pub struct Present {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Labels {
     pub parts: Vec<(Role, Vec<u32>)>,
+    /// Every so many columns and rows were asked.
+    pub stride: usize,
 }
 
 impl Labels {
@@ -24,6 +26,11 @@ impl Labels {
 }
 
 impl Labels {
+    /// Readings of the whole image that a part's stand for.
+    pub fn count(&self, points: &[u32]) -> usize {
+        points.len() * self.stride * self.stride
+    }
+
     pub fn clear(&mut self, role: Role) {
         self.parts.iter_mut().filter(|(r, _)| *r == role).for_each(|(_, points)| points.clear());
     }
@@ -44,16 +51,18 @@ const BEYOND_M: f64 = 0.006;
 const WALL_BEYOND_M: f64 = 0.004;
 
 /// Every reading near the body, given to the panel whose face it is nearest to, in units of what it may lie off.
-pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64) -> Labels {
+///
+/// Of every `stride`-th column and row.
+pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, stride: usize) -> Labels {
     let roles = roles(present);
     let mut parts: Vec<(Role, Vec<u32>)> = roles.iter().map(|role| (*role, Vec::new())).collect();
-    let Some([left, right, top, bottom]) = bounds(sight, body, present) else { return Labels { parts } };
+    let Some([left, right, top, bottom]) = bounds(sight, body, present) else { return Labels { parts, stride } };
     let panels: Vec<Surface> = roles.iter().map(|&role| Surface::new(sight, body, role)).collect();
     let (low, high) = object_bounds(body, present);
     let inverse = body.input_from_object.inverse();
     let (turn, shift) = (inverse.rotation.to_rotation_matrix(), inverse.translation.vector);
-    for row in top..=bottom {
-        for column in left..=right {
+    for row in (top..=bottom).step_by(stride) {
+        for column in (left..=right).step_by(stride) {
             let index = row * sight.width + column;
             let Some(point) = sight.reading(index) else { continue };
             let q = turn * point + shift;
@@ -76,7 +85,7 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64) 
             }
         }
     }
-    Labels { parts }
+    Labels { parts, stride }
 }
 
 /// A panel's face that the camera sees, and its ends.
