@@ -21,7 +21,7 @@ pub fn answer(
     let mut readings = Vec::new();
     for &(part, role) in &roles {
         let points = found.labels.of(role);
-        if points.len() < LEAST_READINGS {
+        if points.is_empty() {
             continue;
         }
         seen[part] = true;
@@ -53,9 +53,6 @@ pub fn answer(
     }
     Some((object, readings))
 }
-
-/// Parts of fewer readings are not called seen.
-const LEAST_READINGS: usize = 150;
 
 fn blank(name: &str) -> PartAnswer {
     PartAnswer { name: name.to_owned(), observed: false, state: None, probability: None, corners: None, points: 0 }

@@ -177,7 +177,7 @@ fn with_flaps(body: &FittedBody, flaps: &[Option<ScannedFlap>; 4]) -> (FittedBod
 /// Readings of other surfaces lean more than this off the panel that they were given to: the tangent.
 const MOST_LEAN: f64 = 0.35;
 /// Parts of fewer readings are not called seen.
-const LEAST_READINGS: usize = 150;
+const LEAST_READINGS: usize = 320;
 
 /// Parts whose readings are few, or lie across them.
 fn drop_unsure(sight: &Sight, body: &FittedBody, labels: &mut Labels) {

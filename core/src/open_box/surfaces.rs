@@ -72,11 +72,13 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, 
             let ray = point - sight.eye;
             let range = ray.norm();
             let sigma3 = 3.0 * sight.sigma_m(range) / range;
-            let mut best = (1.0, usize::MAX);
+            // The support takes what it is nearest to, but for the base upon it.
+            let on_support = point.z.abs() / (sigma3 * ray.z.abs() + model_m);
+            let mut best = (on_support.min(1.0), usize::MAX);
             for (number, panel) in panels.iter().enumerate() {
                 let Some((off, reach)) = panel.off(&q, &ray) else { continue };
                 let share = off.abs() / (sigma3 * reach + model_m);
-                if share < best.0 {
+                if share < best.0 || (panel.role == Role::Base && share < 1.0 && best.1 == usize::MAX) {
                     best = (share, number);
                 }
             }
