@@ -26,9 +26,9 @@ pub struct FoundBox {
 }
 
 /// Of proposals that lie upon each other so many are looked at closely.
-const RIVALS: usize = 16;
-const MOST_SHELLS: usize = 48;
-const RIVALS_FITTED: usize = 4;
+const RIVALS: usize = 40;
+const MOST_SHELLS: usize = 140;
+const RIVALS_FITTED: usize = 8;
 const BOARD_M: f64 = 0.004;
 
 #[derive(Debug, Clone)]
@@ -41,13 +41,16 @@ pub struct Shell {
 
 /// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings.
 pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBox> {
+    let t0 = std::time::Instant::now();
     let mut shells = shells(sight, scene);
+    let t1 = t0.elapsed().as_secs_f64();
     for shell in &mut shells {
         let body = body_of(&shell.proposal);
         shell.flaps = scan_flaps(sight, &body, COARSE_M);
         shell.score = shell.looked.score() + shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
     }
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let t2 = t0.elapsed().as_secs_f64();
     let mut found: Vec<FoundBox> = Vec::new();
     let mut fitted: Vec<&Shell> = Vec::new();
     for shell in &shells {
@@ -56,6 +59,10 @@ pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBo
         }
         fitted.push(shell);
         found.extend(grow(sight, shell, settings));
+    }
+    let t3 = t0.elapsed().as_secs_f64();
+    if std::env::var("BW_T").is_ok() {
+        eprintln!("shells {} {:.1} ms, flaps {:.1} ms, grow {} {:.1} ms", shells.len(), t1 * 1e3, (t2 - t1) * 1e3, fitted.len(), (t3 - t2) * 1e3);
     }
     choose(found, sight.width).into_iter().filter_map(|one| finish(sight, one, settings)).collect()
 }
