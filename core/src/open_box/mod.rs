@@ -3,8 +3,10 @@
 mod answer;
 mod ends;
 mod evidence;
+mod features;
 mod find;
 mod flap_scan;
+mod judgement;
 mod lean;
 mod patch;
 mod proposal;
@@ -16,5 +18,7 @@ mod upright;
 mod yaw;
 
 pub use answer::answer;
-pub use find::{debug, find, shells, FoundBox, Shell};
+pub use features::Features;
+pub use judgement::Judgement;
+pub use find::{find, shells, FoundBox, Shell};
 pub use sight::Sight;
