@@ -63,7 +63,7 @@ pub fn infer(
     Ok((scene, answer))
 }
 
-/// What the rays say of each part with corners; `None` where they say nothing of the cloud.
+/// What the rays say of each part with corners, and probabilities that know it; `None` where they say nothing of the cloud.
 fn tell_states(object: &mut ObjectAnswer, cloud: &CloudView, readings: &Readings) -> Option<()> {
     let facet = |corners: [[f64; 3]; 4]| Facet::new(corners.map(Vec3::from));
     let facets = object.parts.iter().enumerate().filter_map(|(p, part)| Some((p, facet(part.corners?)?)));
@@ -71,6 +71,7 @@ fn tell_states(object: &mut ObjectAnswer, cloud: &CloudView, readings: &Readings
     for (part, looked) in numbers.into_iter().zip(look(cloud, readings, &facets)?) {
         object.parts[part].state = Some(PartState::of(&looked));
     }
+    object.tell_probabilities();
     Some(())
 }
 
@@ -155,6 +156,7 @@ pub fn describe(
             }
             fit_seconds += start.elapsed().as_secs_f64();
         }
+        built.tell_probabilities();
         answer.add(built, scene, set, &assignment);
     }
     answer.stage_seconds = vec![("body", start.elapsed().as_secs_f64() - fit_seconds)];

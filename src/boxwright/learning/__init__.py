@@ -2,5 +2,6 @@
 
 from boxwright.learning.seen import SeenFrame
 from boxwright.learning.train import train
+from boxwright.learning.whole_method import calibrate
 
-__all__ = ["SeenFrame", "train"]
+__all__ = ["SeenFrame", "calibrate", "train"]
