@@ -99,7 +99,7 @@ def _most_likely(design: Array, right: Array, fixed: Array | float = 0.0) -> Arr
         gradient = design.T @ (told - right) + decay * line
         curvature = (design * (told * (1.0 - told))[:, None]).T @ design + np.diag(decay)
         step: Array = np.linalg.solve(curvature, gradient)
-        line = line - step / max(1.0, float(np.abs(step).max()))
+        line -= step / max(1.0, float(np.abs(step).max()))
         if np.abs(step).max() < 1e-10:
             break
     return line
