@@ -95,11 +95,11 @@ def _most_likely(design: Array, right: Array, fixed: Array | float = 0.0) -> Arr
     # Something stays on it, so that verdicts that are all alike end somewhere.
     decay[ONE] = 1e-2
     for _ in range(STEPS):
-        told = 1.0 / (1.0 + np.exp(-(design @ line + fixed)))
-        gradient = design.T @ (told - right) + decay * line
+        told: Array = 1.0 / (1.0 + np.exp(-(design @ line + fixed)))
+        gradient: Array = design.T @ (told - right) + decay * line
         curvature = (design * (told * (1.0 - told))[:, None]).T @ design + np.diag(decay)
-        step: Array = np.linalg.solve(curvature, gradient)
-        line -= step / max(1.0, float(np.abs(step).max()))
+        step: Array = np.asarray(np.linalg.solve(curvature, gradient), np.float64)
+        line = line - step / max(1.0, float(np.abs(step).max()))
         if np.abs(step).max() < 1e-10:
             break
     return line
