@@ -109,6 +109,9 @@ weights-exact:
 		--category cake --category carton --category none --method exact -o $(WEIGHTS)/exact/cake_box.json
 	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template pizza_box \
 		--category pizza --category cake --category none --method exact -o $(WEIGHTS)/exact/pizza_box.json
+	$(BIN)/boxwright synth $(SETS)/calibrate --count 180 --seed 3
+	$(BIN)/boxwright synth $(SETS)/calibrate_none --count 90 --seed 4 --category none
+	$(BIN)/boxwright calibrate $(SETS)/calibrate $(SETS)/calibrate_none -o $(WEIGHTS)/exact
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 60 without an open box)
 	$(BIN)/boxwright synth $(SETS)/test --count 120 --seed 1000

@@ -3,14 +3,14 @@ use boxwright_core::geometry::Vec3;
 use boxwright_core::inference::SearchSettings;
 use boxwright_core::model;
 use boxwright_core::model::SegmentSet;
-use boxwright_core::perception::PerceptionSettings;
 use boxwright_core::open_box::Judgement;
+use boxwright_core::perception::PerceptionSettings;
 use boxwright_core::pipeline::Bodies;
 use boxwright_core::{inference, pipeline};
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::convert::{named, rows_of_three, to_python};
 use crate::perception::Perception;
@@ -107,6 +107,13 @@ impl Answer {
     fn objects_json(&self) -> PyResult<Vec<String>> {
         let text = |object| serde_json::to_string(object).map_err(|error| PyValueError::new_err(error.to_string()));
         self.answer.objects.iter().map(text).collect()
+    }
+
+    /// What is known of each part of an object (EVIDENCE), none for a part that was not found or summed.
+    fn evidence(&self, object: usize) -> PyResult<Vec<Option<Vec<f64>>>> {
+        let known = self.answer.objects.get(object);
+        let object = known.ok_or_else(|| PyValueError::new_err(format!("object {object} does not exist")))?;
+        Ok((0..object.parts.len()).map(|p| object.evidence(p).map(|values| values.to_vec())).collect())
     }
 
     #[getter]
@@ -239,6 +246,7 @@ fn describe(
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("EVIDENCE", PyTuple::new(m.py(), model::EVIDENCE)?)?;
     m.add_class::<Template>()?;
     m.add_class::<ObjectModel>()?;
     m.add_class::<Answer>()?;

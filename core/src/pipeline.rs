@@ -105,7 +105,9 @@ fn whole_boxes(
         features: Vec::new(),
     };
     for one in &found {
-        let Some((object, parts)) = open_box::answer(one, &models[models.len().min(2) - 1].template, &sight, &settings, judgement) else {
+        let Some((object, parts)) =
+            open_box::answer(one, &models[models.len().min(2) - 1].template, &sight, &settings, judgement)
+        else {
             continue;
         };
         if object.probability.is_some_and(|p| p < 0.5) {
@@ -126,7 +128,7 @@ fn whole_boxes(
     Some(answer)
 }
 
-/// What the rays say of each part with corners; `None` where they say nothing of the cloud.
+/// What the rays say of each part with corners, and probabilities that know it; `None` where they say nothing of the cloud.
 fn tell_states(object: &mut ObjectAnswer, cloud: &CloudView, readings: &Readings) -> Option<()> {
     let facet = |corners: [[f64; 3]; 4]| Facet::new(corners.map(Vec3::from));
     let facets = object.parts.iter().enumerate().filter_map(|(p, part)| Some((p, facet(part.corners?)?)));
@@ -134,6 +136,7 @@ fn tell_states(object: &mut ObjectAnswer, cloud: &CloudView, readings: &Readings
     for (part, looked) in numbers.into_iter().zip(look(cloud, readings, &facets)?) {
         object.parts[part].state = Some(PartState::of(&looked));
     }
+    object.tell_probabilities();
     Some(())
 }
 
@@ -219,6 +222,7 @@ pub fn describe(
             }
             fit_seconds += start.elapsed().as_secs_f64();
         }
+        built.tell_probabilities();
         answer.add(built, scene, set, &assignment);
     }
     answer.stage_seconds = vec![("body", start.elapsed().as_secs_f64() - fit_seconds)];

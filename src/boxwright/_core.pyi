@@ -147,6 +147,9 @@ def close_surface_groups(
 
 # --- model ---
 
+EVIDENCE: tuple[str, ...]
+"""What is known of a found part (docs/maths.md, eq. 64)."""
+
 class Template:
     """An object's template, read from TOML text. Raises ValueError naming the key that does not fit."""
 
@@ -184,6 +187,9 @@ class Answer:
 
     def objects_json(self) -> list[str]:
         """The objects as JSON text, best first, keys as in docs/formats.md."""
+
+    def evidence(self, object: int) -> list[list[float] | None]:
+        """What is known of each part of an object, as `EVIDENCE` names it; None where nothing was found or summed."""
 
     @property
     def object_labels(self) -> NDArray[np.int16]:

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use super::find::FoundBox;
+use super::grow::FoundBox;
 use super::judgement::{probability, Judgement};
 use super::sight::Sight;
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer, ScoreTermAnswer};
@@ -50,7 +50,8 @@ pub fn answer(
         template_probability: None,
         score: judged.as_ref().map_or(found.score, |(log_odds, _)| *log_odds),
         probability: judged.as_ref().map(|(log_odds, _)| probability(*log_odds)),
-        inference: InferenceAnswer::new(f64::INFINITY, 0),
+        inference: InferenceAnswer::new(f64::INFINITY, 0, None),
+        sums: None,
         score_terms: judged.map_or_else(Vec::new, |(_, terms)| terms.into_iter().map(term).collect()),
         dimensions: None,
         outer_dimensions: None,
@@ -73,5 +74,13 @@ fn term((name, value, weight): (&'static str, f64, f64)) -> ScoreTermAnswer {
 }
 
 fn blank(name: &str) -> PartAnswer {
-    PartAnswer { name: name.to_owned(), observed: false, state: None, probability: None, corners: None, points: 0 }
+    PartAnswer {
+        name: name.to_owned(),
+        observed: false,
+        state: None,
+        probability: None,
+        corners: None,
+        points: 0,
+        marginal: None,
+    }
 }

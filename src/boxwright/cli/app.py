@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from boxwright import __version__
+from boxwright.cli.calibrate import calibrate
 from boxwright.cli.demo import demo
 from boxwright.cli.evaluate import evaluate
 from boxwright.cli.explain import explain
@@ -18,7 +19,7 @@ from boxwright.cli.synth import synth
 from boxwright.cli.train import train
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich")
-for command in (demo, infer, segment, explain, figure, label, evaluate, synth, train):
+for command in (demo, infer, segment, explain, figure, label, evaluate, synth, train, calibrate):
     app.command()(command)
 
 
