@@ -4,12 +4,15 @@ from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, Par
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
+from boxwright.types.plan import FlapOutcome, FlapStatus, Plan, PlanSegment, SegmentKind, SmallestMove
 from boxwright.types.segments import Segment, Segmentation
 from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
 
 __all__ = [
     "Camera",
     "Cloud",
+    "FlapOutcome",
+    "FlapStatus",
     "Inference",
     "Intrinsics",
     "Joint",
@@ -19,11 +22,15 @@ __all__ = [
     "Parameter",
     "Part",
     "PartState",
+    "Plan",
+    "PlanSegment",
     "Pose",
     "ScoreTerm",
     "Seconds",
     "Segment",
+    "SegmentKind",
     "Segmentation",
+    "SmallestMove",
     "Source",
     "SupportPlane",
     "TrueBox",
