@@ -1,0 +1,34 @@
+//! How an arm closes a box: which flaps in which order, pushed how, and why not.
+//!
+//! Geometry of flaps and fingers (`flap`, `touch`, `contact`), the layered search of one push (`layers`, `push`), the ways to it and
+//! between flaps (`line`, `transit`), and the order (`boards`, `order`, `closing`). Metres, radians, the robot's base frame.
+
+mod boards;
+mod closing;
+mod contact;
+mod flap;
+mod guard;
+mod layers;
+mod line;
+mod order;
+mod orientations;
+mod problem;
+mod push;
+mod reason;
+mod settings;
+mod timing;
+mod touch;
+mod transit;
+
+pub use boards::quads_cross;
+pub use closing::{Closer, Closing, Kind, Outcome, Piece};
+pub use contact::{Contacts, Grip};
+pub use flap::{Flap, FlapFrame, Standing};
+pub use guard::{Guard, Moment};
+pub use order::ascending_area;
+pub use problem::{Board, BoxProblem, MeasuredBox, MeasuredFlap};
+pub use push::{closed_finger, PushMotion, Pusher};
+pub use reason::{Obstacle, Status, WhyNot};
+pub use settings::PlanningSettings;
+pub use touch::Finger;
+pub use timing::{time, Bounds, Timed};

@@ -1,0 +1,80 @@
+use serde::Deserialize;
+
+/// What the planner takes for granted; every default of it is here and nowhere else. Metres, radians, seconds.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlanningSettings {
+    /// Kept to everything but the flap that is pushed.
+    pub clearance_m: f64,
+    /// By how much more is kept while searching, so that what lies between samples keeps the clearance too.
+    pub search_margin_m: f64,
+    /// A flap within this of 0 is closed.
+    pub closed_rad: f64,
+    /// How far a flap is pushed beyond closed, so that it springs back to closed; above -15 degrees, where it counts as pushed in.
+    pub overclose_rad: f64,
+    /// The same of a flap that comes to lie on others, or that carries a tuck.
+    pub overclose_on_others_rad: f64,
+    /// Where a flap that was let go is taken to rest.
+    pub rest_rad: f64,
+    /// Between two layers of the search, at most.
+    pub layer_rad: f64,
+    /// Between two samples of a push, at most.
+    pub sample_rad: f64,
+    /// States kept in each layer: a first try, and wider ones where it fails.
+    pub beams: Vec<usize>,
+    /// Between contacts along and across a flap, and how many of them at most.
+    pub contact_step_m: f64,
+    pub most_contacts: [usize; 2],
+    /// Contacts keep this from the flap's ends, and this share of its length from the hinge.
+    pub contact_inset_m: f64,
+    pub least_lever: f64,
+    /// How far the tool's axis may lean back over the flap's edge, as the sine.
+    pub most_lean: f64,
+    /// From the tip to where a hooked edge may lie on the finger, at the least.
+    pub least_hook_m: f64,
+    /// How far a joint may turn from one layer to the next, and from one sample to the next.
+    pub most_turn_rad: f64,
+    pub most_sample_turn_rad: f64,
+    /// The tool stands off a flap by this before it touches it, then leaves by up to this.
+    pub stand_off_m: f64,
+    pub withdraw_m: f64,
+    /// Between two samples of a straight line of the tool.
+    pub line_step_m: f64,
+    /// Between two checked postures of a motion of the joints: the widest turn of any joint.
+    pub joint_step_rad: f64,
+    /// Tries of the search for a way between two flaps, and the seed of its draws.
+    pub transit_tries: usize,
+    pub transit_seed: u64,
+    pub shortcuts: usize,
+}
+
+impl Default for PlanningSettings {
+    fn default() -> Self {
+        Self {
+            clearance_m: 0.005,
+            search_margin_m: 0.0015,
+            closed_rad: 15f64.to_radians(),
+            overclose_rad: 8f64.to_radians(),
+            overclose_on_others_rad: 2f64.to_radians(),
+            rest_rad: 4f64.to_radians(),
+            layer_rad: 8f64.to_radians(),
+            sample_rad: 1f64.to_radians(),
+            beams: vec![16, 64, 200],
+            contact_step_m: 0.04,
+            most_contacts: [7, 5],
+            contact_inset_m: 0.012,
+            least_lever: 0.35,
+            most_lean: 0.8,
+            least_hook_m: 0.010,
+            most_turn_rad: 0.9,
+            most_sample_turn_rad: 0.25,
+            stand_off_m: 0.015,
+            withdraw_m: 0.10,
+            line_step_m: 0.005,
+            joint_step_rad: 0.05,
+            transit_tries: 4000,
+            transit_seed: 0x2011,
+            shortcuts: 60,
+        }
+    }
+}
