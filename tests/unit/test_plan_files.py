@@ -50,7 +50,7 @@ BAD: list[tuple[str, Change, str]] = [
     ("mirror", lambda d: d["base_from_input"][2].__setitem__(2, -1.0), "right-handed"),
     ("last row", lambda d: d["base_from_input"][3].__setitem__(0, 1.0), "it must be 0, 0, 0, 1"),
     ("status", lambda d: d["flaps"]["flap_0"].update(status="lost"), "flaps"),
-    ("reason", lambda d: d["flaps"]["flap_0"].update(reason=None), "planned ones alone have none"),
+    ("reason", lambda d: d["flaps"]["flap_0"].update(reason=None), "planned flaps alone have none"),
     ("order", lambda d: d.update(order=["flap_0"]), "which is no planned flap"),
     ("row", lambda d: d["segments"][1]["positions"].__setitem__(1, [0.0]), "joint_names has 2"),
     ("rows", lambda d: d["segments"][1]["velocities"].pop(), "must be as many"),

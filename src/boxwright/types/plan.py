@@ -7,6 +7,7 @@ are checked when made; each check raises ValueError with one line.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Literal
 
 import msgspec
@@ -149,7 +150,7 @@ def _require_growing(times: tuple[float, ...]) -> None:
     if len(times) < 2:
         raise ValueError(f"times holds {len(times)} samples; a segment has at least 2")
     require_finite("times", times)
-    if any(after <= before for before, after in zip(times, times[1:], strict=False)):
+    if any(after <= before for before, after in pairwise(times)):
         raise ValueError("times do not grow; each must be later than the one before")
 
 
