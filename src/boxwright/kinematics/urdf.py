@@ -17,12 +17,7 @@ from boxwright.kinematics.links import corners_of, link_frames, panel_frame, par
 from boxwright.kinematics.plates import EnclosingBox, Plate, enclosing_box, plate
 from boxwright.kinematics.transforms import Matrix, apply, inverse, rigid, roll_pitch_yaw
 from boxwright.types import Joint, Object
-
-BOARD_G_PER_M2 = 550.0
-"""Single-wall board of common papers: two liners of 175 g/m2, a medium of 140 g/m2 by C flute's take-up, about 1.43."""
-
-BOARD_THICKNESS_M = 0.004
-"""C flute, nominally 5/32 inch (Fibre Box Association); used where the object does not tell its own."""
+from boxwright.types.board import BOARD_G_PER_M2, BOARD_THICKNESS_M
 
 HINGE_EFFORT_N_M = 10.0
 HINGE_VELOCITY_RAD_PER_S = 6.283185307179586
