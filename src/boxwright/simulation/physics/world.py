@@ -81,6 +81,7 @@ def build_world(
     spec.compiler.degree = False
     _set_options(spec, box, settings)
     _add_support(spec, box, settings)
+    _add_light(spec, box)
     names = add_box(spec, box, crease, settings, contents_kg=contents_kg)
     for k, other in enumerate(others):
         add_box(spec, other, crease, settings, prefix=f"other_{k}_", free=False)
@@ -127,3 +128,22 @@ def _add_support(spec: mujoco.MjSpec, box: BoardBox, settings: PhysicsSettings) 
             rgba=(0.45, 0.25, 0.25, 1.0),
             **rough,
         )
+
+
+def _add_light(spec: mujoco.MjSpec, box: BoardBox) -> None:
+    """For pictures alone."""
+    above = box.world_from_box[:3, 3] + 2.5 * box.up
+    spec.worldbody.add_light(
+        pos=above, dir=-box.up, type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, diffuse=[0.55, 0.55, 0.55]
+    )
+    spec.add_texture(
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=[0.85, 0.88, 0.92],
+        rgb2=[0.6, 0.65, 0.7],
+        width=32,
+        height=192,
+    )
+    spec.visual.headlight.ambient = [0.35, 0.35, 0.35]
+    spec.visual.headlight.diffuse = [0.35, 0.35, 0.35]
+    spec.visual.headlight.specular = [0.0, 0.0, 0.0]
