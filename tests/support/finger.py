@@ -62,7 +62,13 @@ class Finger:
 
 
 def push_shut(
-    box: BoardBox, flap: str, to_deg: float, *, reach: float = 0.8, start: tuple[float, Array] | None = None
+    box: BoardBox,
+    flap: str,
+    to_deg: float,
+    *,
+    reach: float = 0.8,
+    radius_m: float = RADIUS_M,
+    start: tuple[float, Array] | None = None,
 ) -> list[PlanSegment]:
     """Approach, push along the flap's outer face at `reach` of its length down to an angle, and away upwards.
 
@@ -71,8 +77,8 @@ def push_shut(
     board = box.board(flap)
     assert board.hinge is not None
     angles = np.radians(np.arange(np.degrees(board.hinge.position_rad), to_deg - 1e-9, -2.0))
-    path = np.array([_beside(board, box, angle, reach) for angle in angles])
-    above = path[0] + 0.05 * (path[0] - _on(board, box, angles[0], reach)) / RADIUS_M
+    path = np.array([_beside(board, box, angle, reach, radius_m) for angle in angles])
+    above = path[0] + 0.05 * (path[0] - _on(board, box, angles[0], reach)) / radius_m
     t0, place = start or (0.0, above + 0.1 * box.up)
     high = np.array([*above[:2], max(above[2], place[2])])
     away = path[-1] + 0.25 * box.up
@@ -99,13 +105,13 @@ def _on(board: Board, box: BoardBox, angle_rad: float, reach: float) -> Array:
     return hinge.origin + reach * length_m * along
 
 
-def _beside(board: Board, box: BoardBox, angle_rad: float, reach: float) -> Array:
+def _beside(board: Board, box: BoardBox, angle_rad: float, reach: float, radius_m: float) -> Array:
     """Where the finger's end touches the outer face there."""
     hinge = board.hinge
     assert hinge is not None
     inward = np.cross(box.world_from_box[:3, 2], hinge.axis)
     outward = -np.sin(angle_rad) * inward + np.cos(angle_rad) * box.world_from_box[:3, 2]
-    return _on(board, box, angle_rad, reach) + (RADIUS_M + box.thickness_m / 2.0) * outward
+    return _on(board, box, angle_rad, reach) + (radius_m + box.thickness_m / 2.0) * outward
 
 
 def _segment(flap: str | None, kind: str, t0: float, points: Array, angles: Sequence[float] | Array) -> PlanSegment:

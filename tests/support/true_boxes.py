@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from boxwright.simulation.boxes import OpenBox
+from boxwright.simulation.boxes import Flap, OpenBox
 from boxwright.simulation.poses import apply, standing
 from boxwright.simulation.scene import place
 from boxwright.types import TrueBox, TruePart, Truth
@@ -21,3 +21,10 @@ def truth_of(box: OpenBox, *, x_m: float = 0.0, y_m: float = 0.0, yaw_rad: float
     dims = (box.length_m, box.width_m, box.height_m)
     found = TrueBox(0, box.category, box.variant, dims)
     return Truth("made", box.category, None, (0.0, 0.0, 1.0), (found,), tuple(parts))
+
+
+def carton(*angles_deg: float) -> OpenBox:
+    """A carton whose flaps meet in the middle, standing up unless told otherwise."""
+    degrees = angles_deg or (95.0, 95.0, 95.0, 95.0)
+    first, second, third, fourth = (Flap(0.106, float(np.radians(angle)), 0.0045) for angle in degrees)
+    return OpenBox("small", "rsc", 0.30, 0.22, 0.16, 0.004, (first, second, third, fourth))

@@ -18,8 +18,8 @@ class FlapVerdict(msgspec.Struct, frozen=True, kw_only=True):
 
     `before_rad` is its position before the arm came to it, `pushed_to_rad` the least while it was pushed (None where it
     was not), `after_rad` that after the arm had retreated and everything had rested, and `end_rad` that at the end of
-    all. `closed` is judged with `after_rad`, `held` at the end; a flap that was not pushed is judged at the end alone.
-    `crease_n_m` is the moment that folds its crease on, for its whole length.
+    all. `closed` is judged with `after_rad` and `held` at the end, when others may hold it down or have swept it open;
+    a flap that was not pushed is judged at the end alone. `crease_n_m` is the moment that folds its whole crease on.
     """
 
     before_rad: float

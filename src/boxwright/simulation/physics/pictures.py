@@ -6,6 +6,7 @@ Needs EGL (Debian: libegl1, libgl1-mesa-dri) and Pillow.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from os import PathLike
 from pathlib import Path
 
@@ -61,9 +62,7 @@ class Painter:
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_camlight(self._model, self._data)
         shown = mujoco.mjtCatBit.mjCAT_ALL.value
-        mujoco.mjv_updateScene(
-            self._model, self._data, mujoco.MjvOption(), None, self._camera, shown, self._scene
-        )
+        mujoco.mjv_updateScene(self._model, self._data, mujoco.MjvOption(), None, self._camera, shown, self._scene)
         pixels = np.empty((height, width, 3), dtype=np.uint8)
         area = mujoco.MjrRect(0, 0, width, height)
         mujoco.mjr_render(area, self._scene, self._drawer)
@@ -112,7 +111,7 @@ def _moments(run: Run) -> list[int]:
     """Stills to show: the first and the last of each caption's time, thinned evenly where they are too many."""
     captions = run.film.captions
     edges = [k for k in range(len(captions)) if k in (0, len(captions) - 1) or captions[k] != captions[k - 1]]
-    middles = [(a + b) // 2 for a, b in zip(edges[:-1], edges[1:], strict=True) if captions[a].startswith("push")]
+    middles = [(a + b) // 2 for a, b in pairwise(edges) if captions[a].startswith("push")]
     moments = sorted({*edges, *middles})
     if len(moments) <= TILES:
         return moments
@@ -139,6 +138,6 @@ def _gl_context(size_px: tuple[int, int]) -> mujoco.egl.GLContext:
         context.make_current()
     except (ImportError, AttributeError, RuntimeError) as error:
         raise OSError(
-            f"no picture can be drawn here: EGL does not work ({error}); on Debian: apt-get install libegl1 libgl1-mesa-dri"
+            f"no picture can be drawn here: EGL fails ({error}); Debian: apt-get install libegl1 libgl1-mesa-dri"
         ) from error
     return context

@@ -198,7 +198,7 @@ class Session:
                 after_rad=end[name] if seen is None else seen.after_rad,
                 end_rad=end[name],
                 closed=proven and was_closed,
-                held=proven and was_closed and name in closed,
+                held=proven and name in closed,
                 crease_n_m=moments[name],
             )
         return verdicts

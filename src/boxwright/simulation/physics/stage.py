@@ -53,17 +53,20 @@ class Stage:
         flap_at = None if flap is None else int(model.joint(self.world.box.joint_of[flap]).qposadr[0])
         least_rad = np.inf
         commands = None if self._tool is None else self._tool.commands(*course.rows(), opening_m)
+        followed = np.empty_like(course.positions)
         for k in range(len(course.positions)):
             if commands is not None:
                 data.ctrl[:] = commands[k]
+                followed[k] = data.qpos[self._joints]
             mujoco.mj_step(model, data)
             watch.note(data, allowed)
-            if len(self._joints):
-                error = np.abs(data.qpos[self._joints] - course.positions[k]).max()
-                self.max_joint_error_rad = max(self.max_joint_error_rad, float(error))
             if flap_at is not None:
                 least_rad = min(least_rad, data.qpos[flap_at])
             self._film()
+        if commands is not None:
+            # What stood before a step is where the step before was to end.
+            errors = np.abs(followed[1:] - course.positions[:-1])
+            self.max_joint_error_rad = max(self.max_joint_error_rad, float(errors.max(initial=0.0)))
         return float(least_rad)
 
     def _film(self) -> None:

@@ -22,6 +22,7 @@ class Watch:
         self._is_tool = np.zeros(model.nbody, dtype=bool)
         for name in world.tool.bodies if world.tool else ():
             self._is_tool[model.body(name).id] = True
+        self._is_tool_geom = self._is_tool[model.geom_bodyid]
         self.max_penetration_m = 0.0
         self.deepest: tuple[str, str] | None = None
         self.max_force_n = 0.0
@@ -32,18 +33,22 @@ class Watch:
         if data.ncon == 0:
             return
         contact = data.contact
-        dist = contact.dist
-        deepest = int(dist.argmin())
-        if -dist[deepest] > self.max_penetration_m:
+        geoms, dist = contact.geom, contact.dist
+        if -dist.min() > self.max_penetration_m:
+            deepest = int(dist.argmin())
             self.max_penetration_m = -float(dist[deepest])
-            self.deepest = self._names(*self._body_of_geom[contact.geom[deepest]])
-        bodies = self._body_of_geom[contact.geom]
-        tooled = self._is_tool[bodies].any(axis=1)
-        if not tooled.any():
-            return
-        rows = contact.efc_address[tooled]
+            self.deepest = self._names(*self._body_of_geom[geoms[deepest]])
+        is_tool = self._is_tool_geom[geoms]
+        if is_tool.max():
+            self._note_tool(data, geoms, is_tool.any(axis=1), allowed)
+
+    def _note_tool(
+        self, data: mujoco.MjData, geoms: NDArray[np.int32], tooled: NDArray[np.bool_], allowed: frozenset[int]
+    ) -> None:
+        """Normal forces stand in the first row of a contact with an elliptic cone."""
+        rows = data.contact.efc_address[tooled]
         self.max_force_n = max(self.max_force_n, float(data.efc_force[rows[rows >= 0]].sum()))
-        pairs = np.sort(bodies[tooled], axis=1)
+        pairs = np.sort(self._body_of_geom[geoms[tooled]], axis=1)
         self._touched |= set((pairs[:, 0] * self._bodies + pairs[:, 1]).tolist()) - allowed
 
     def forget_depth(self) -> None:
