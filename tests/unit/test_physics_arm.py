@@ -95,6 +95,27 @@ def test_the_arm_pushes_a_flap_shut(arm: Arm) -> None:
     assert np.degrees(simulation.max_joint_error_rad) < 0.5
 
 
+def test_the_arm_s_mjcf_reads_back_as_the_same_arm(arm: Arm) -> None:
+    """MuJoCo writes six digits."""
+    model = mujoco.MjModel.from_xml_string(arm.mjcf_text())
+    world = beside_a_box(arm, np.zeros(6)).model
+    here, there, rng = mujoco.MjData(model), mujoco.MjData(world), np.random.default_rng(2)
+    names = [joint.name for joint in arm.robot.joints]
+    assert [model.actuator(k).name for k in range(model.nu)] == [*names, "finger_left", "finger_right"]
+    for _ in range(20):
+        joints = rng.uniform(-1.0, 1.0, len(names))
+        for data, one in ((here, model), (there, world)):
+            data.qpos[[one.joint(name).qposadr[0] for name in names]] = joints
+            mujoco.mj_kinematics(one, data)
+        for body in ("link_2", "link_4", "gripper", "finger_left"):
+            np.testing.assert_allclose(here.body(body).xpos, there.body(body).xpos, atol=1e-5)
+            np.testing.assert_allclose(here.body(body).xmat, there.body(body).xmat, atol=1e-5)
+    for name in names:
+        np.testing.assert_allclose(model.joint(name).range, world.joint(name).range, rtol=1e-5)
+        np.testing.assert_allclose(model.actuator(name).gainprm, world.actuator(name).gainprm, rtol=1e-5)
+        np.testing.assert_allclose(model.actuator(name).forcerange, world.actuator(name).forcerange, rtol=1e-5)
+
+
 def test_robots_that_do_not_fit_are_refused(arm: Arm, tmp_path) -> None:  # type: ignore[no-untyped-def]
     with pytest.raises(ValueError, match=r"must be one of .*viper_s850"):
         load_robot("viper")

@@ -18,7 +18,9 @@ def simulate(
         Path | None,
         typer.Option(metavar="NAME.truth.json", help="Close the true box; without it, the one that was inferred."),
     ] = None,
-    crease: Annotated[str, typer.Option(metavar="CLASS", help="pre_broken, ordinary or stiff.")] = "ordinary",
+    crease: Annotated[
+        str | None, typer.Option(metavar="CLASS", help="Class of creases, as pre_broken, ordinary (default), stiff.")
+    ] = None,
     crease_file: Annotated[
         Path | None, typer.Option(metavar="FILE.toml", help="Your own classes of creases (docs/physics.md).")
     ] = None,
@@ -60,7 +62,8 @@ def simulate(
     from boxwright.io.plans import load_plan
     from boxwright.io.simulations import save_simulation
     from boxwright.io.truth import load_truth
-    from boxwright.simulation.physics import Load, PhysicsSettings, simulate_plan
+    from boxwright.simulation.physics import CREASE, Load, PhysicsSettings
+    from boxwright.simulation.physics import simulate as simulate_plan
 
     step_s = time_step_ms / 1000.0
     plan = load_plan(plan_dir / "plan.json")
@@ -68,7 +71,7 @@ def simulate(
         plan,
         load_model(plan_dir / "model.json"),
         None if truth is None else load_truth(truth),
-        crease=crease,
+        crease=crease or CREASE,
         crease_file=crease_file,
         robot=robot,
         load=Load(empty=empty, mass_kg=mass_kg),

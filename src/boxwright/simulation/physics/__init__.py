@@ -3,7 +3,7 @@
 from boxwright.simulation.physics.arm import Arm
 from boxwright.simulation.physics.boards import BoardBox, modelled_box, true_box
 from boxwright.simulation.physics.creases import Crease, crease_class, load_creases
-from boxwright.simulation.physics.plans import simulate_plan
+from boxwright.simulation.physics.plans import simulate
 from boxwright.simulation.physics.robot_file import RobotFile, load_robot
 from boxwright.simulation.physics.run import CREASE, Run, simulate_closing
 from boxwright.simulation.physics.session import Load, Session
@@ -23,7 +23,7 @@ __all__ = [
     "load_creases",
     "load_robot",
     "modelled_box",
+    "simulate",
     "simulate_closing",
-    "simulate_plan",
     "true_box",
 ]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import msgspec
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -38,53 +39,37 @@ GRIPPER_RGBA = (0.35, 0.38, 0.42, 1.0)
 FINGER_RGBA = (0.2, 0.45, 0.8, 1.0)
 
 
+class Servo(msgspec.Struct, frozen=True):
+    """A position servo: force = stiffness (target - position) - damping speed, at most `strongest`; SI units."""
+
+    stiffness: float
+    damping: float
+    strongest: float
+
+
 class Arm:
     """A `Tool` (world.py) made from a robot's file."""
 
     def __init__(self, robot: RobotFile) -> None:
         self.robot = robot
         self.name = robot.name
+        self.servos = self._tuned()
 
     def add_to(self, spec: mujoco.MjSpec, settings: PhysicsSettings, start: Array, opening_m: float) -> ToolNames:
         """Links, gripper and servos, in the world's frame; joints in the file's order, then the two fingers'."""
-        robot = self.robot
-        if len(start) != len(robot.joints):
-            raise ValueError(f"robot {robot.name} has {len(robot.joints)} joints; the trajectory has {len(start)}")
-        body = spec.worldbody.add_body(name=BASE)
-        _add_shapes(body, robot.links[0], settings)
-        names = [BASE]
-        for (mount, axis), joint, link in zip(robot.mounts(), robot.joints, robot.links[1:], strict=True):
-            body = body.add_body(name=link.name, pos=mount[:3, 3], quat=quaternion(mount), gravcomp=1.0)
-            low, high = np.radians(joint.limits_deg)
-            body.add_joint(
-                name=joint.name,
-                type=mujoco.mjtJoint.mjJNT_HINGE,
-                axis=axis,
-                armature=ROTOR_KG_M2,
-                limited=mujoco.mjtLimited.mjLIMITED_TRUE,
-                range=[low, high],
-            )
-            _add_servo(spec, joint.name)
-            _add_shapes(body, link, settings)
-            names.append(link.name)
-        self._add_gripper(spec, body, settings)
-        _exclude(spec, robot, names)
-        return ToolNames(tuple(joint.name for joint in robot.joints), (GRIPPER, *FINGERS), (*names, GRIPPER, *FINGERS))
+        if len(start) != len(self.robot.joints):
+            raise ValueError(f"robot {self.name} has {len(self.robot.joints)} joints; the trajectory has {len(start)}")
+        names = self._add_bodies(spec, settings)
+        _exclude(spec, self.robot, names)
+        spec.add_exclude(bodyname1=BASE, bodyname2=SUPPORT)
+        for name, servo in self.servos.items():
+            _add_servo(spec, name, servo)
+        joints = tuple(joint.name for joint in self.robot.joints)
+        return ToolNames(joints, (GRIPPER, *FINGERS), (*names, GRIPPER, *FINGERS))
 
     def begin(self, model: mujoco.MjModel, data: mujoco.MjData, start: Array, opening_m: float) -> None:
-        """Tunes the servos in the ready pose, then puts the joints at `start` and the fingers as wide open as told."""
-        joints = [model.joint(joint.name) for joint in self.robot.joints]
-        data.qpos[[joint.qposadr[0] for joint in joints]] = np.radians(self.robot.ready_deg)
-        mujoco.mj_forward(model, data)
-        inertia = np.zeros((model.nv, model.nv))
-        mujoco.mj_fullM(model, data, inertia)
-        for joint, told in zip(joints, self.robot.joints, strict=True):
-            kg_m2 = float(inertia[joint.dofadr[0], joint.dofadr[0]])
-            strongest = TORQUE_SHARE * kg_m2 * float(np.radians(told.acceleration_deg_per_s2))
-            _tune(model, joint.name, kg_m2, BANDWIDTH_HZ, strongest)
-        for finger in FINGERS:
-            _tune(model, finger, FINGER_KG + FINGER_DRIVE_KG, FINGER_BANDWIDTH_HZ, FINGER_FORCE_N)
-        data.qpos[[joint.qposadr[0] for joint in joints]] = start
+        """Puts the joints at `start` and the fingers as wide open as told."""
+        data.qpos[[model.joint(joint.name).qposadr[0] for joint in self.robot.joints]] = start
         data.qpos[[model.joint(finger).qposadr[0] for finger in FINGERS]] = opening_m / 2.0
         data.ctrl[:] = np.concatenate([start, [opening_m / 2.0] * 2])
 
@@ -94,7 +79,61 @@ class Arm:
         leading = positions + 2.0 / rate * velocities + accelerations / rate**2
         return np.column_stack([leading, np.full((len(leading), 2), opening_m / 2.0)])
 
-    def _add_gripper(self, spec: mujoco.MjSpec, last: mujoco.MjsBody, settings: PhysicsSettings) -> None:
+    def mjcf_text(self) -> str:
+        """The arm alone as MJCF, servos and all; metres, radians, kilograms, in six digits as MuJoCo writes them."""
+        spec = mujoco.MjSpec()
+        spec.modelname = self.name
+        spec.compiler.degree = False
+        names = self._add_bodies(spec, PhysicsSettings())
+        _exclude(spec, self.robot, names)
+        for name, servo in self.servos.items():
+            _add_servo(spec, name, servo)
+        spec.compile()
+        return str(spec.to_xml())
+
+    def _tuned(self) -> dict[str, Servo]:
+        """Servos by their joints' names, from the inertia that each joint has in the ready pose."""
+        spec = mujoco.MjSpec()
+        spec.compiler.degree = False
+        self._add_bodies(spec, PhysicsSettings())
+        model = spec.compile()
+        data, inertia = mujoco.MjData(model), np.zeros((model.nv, model.nv))
+        data.qpos[[model.joint(joint.name).qposadr[0] for joint in self.robot.joints]] = np.radians(
+            self.robot.ready_deg
+        )
+        mujoco.mj_forward(model, data)
+        mujoco.mj_fullM(model, data, inertia)
+        servos = {}
+        for joint in self.robot.joints:
+            at = int(model.joint(joint.name).dofadr[0])
+            kg_m2 = float(inertia[at, at])
+            strongest = TORQUE_SHARE * kg_m2 * float(np.radians(joint.acceleration_deg_per_s2))
+            servos[joint.name] = _servo(kg_m2, BANDWIDTH_HZ, strongest)
+        finger = _servo(FINGER_KG + FINGER_DRIVE_KG, FINGER_BANDWIDTH_HZ, FINGER_FORCE_N)
+        return servos | dict.fromkeys(FINGERS, finger)
+
+    def _add_bodies(self, spec: mujoco.MjSpec, settings: PhysicsSettings) -> list[str]:
+        """The links' bodies, each on the one before, then the gripper; the links' names."""
+        robot = self.robot
+        body = spec.worldbody.add_body(name=BASE)
+        _add_shapes(body, robot.links[0], settings)
+        names = [BASE]
+        for (mount, axis), joint, link in zip(robot.mounts(), robot.joints, robot.links[1:], strict=True):
+            body = body.add_body(name=link.name, pos=mount[:3, 3], quat=quaternion(mount), gravcomp=1.0)
+            body.add_joint(
+                name=joint.name,
+                type=mujoco.mjtJoint.mjJNT_HINGE,
+                axis=axis,
+                armature=ROTOR_KG_M2,
+                limited=mujoco.mjtLimited.mjLIMITED_TRUE,
+                range=np.radians(joint.limits_deg),
+            )
+            _add_shapes(body, link, settings)
+            names.append(link.name)
+        self._add_gripper(body, settings)
+        return names
+
+    def _add_gripper(self, last: mujoco.MjsBody, settings: PhysicsSettings) -> None:
         gripper, flange = self.robot.gripper, self.robot.last_link_from_flange()
         depth_m = gripper.body_size_m[2]
         body = last.add_body(name=GRIPPER, pos=flange[:3, 3], quat=quaternion(flange), gravcomp=1.0)
@@ -113,7 +152,6 @@ class Arm:
             finger.add_joint(
                 name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0.0, side, 0.0], armature=FINGER_DRIVE_KG
             )
-            _add_servo(spec, name)
             finger.add_geom(
                 type=mujoco.mjtGeom.mjGEOM_BOX,
                 size=size / 2.0,
@@ -161,32 +199,31 @@ def _length(start: tuple[float, float, float], end: tuple[float, float, float]) 
     return float(np.linalg.norm(np.subtract(end, start)))
 
 
-def _add_servo(spec: mujoco.MjSpec, joint: str) -> None:
-    """A position servo whose gains `_tune` sets once the inertias are known."""
+def _servo(inertia: float, bandwidth_hz: float, strongest: float) -> Servo:
+    """A critically damped spring of that bandwidth on that inertia (kg m2, or kg)."""
+    rate = 2.0 * np.pi * bandwidth_hz
+    return Servo(rate**2 * inertia, 2.0 * rate * inertia, strongest)
+
+
+def _add_servo(spec: mujoco.MjSpec, joint: str, servo: Servo) -> None:
     spec.add_actuator(
         name=joint,
         target=joint,
         trntype=mujoco.mjtTrn.mjTRN_JOINT,
         gaintype=mujoco.mjtGain.mjGAIN_FIXED,
         biastype=mujoco.mjtBias.mjBIAS_AFFINE,
+        gainprm=[servo.stiffness, *[0.0] * 9],
+        biasprm=[0.0, -servo.stiffness, -servo.damping, *[0.0] * 7],
         forcelimited=mujoco.mjtLimited.mjLIMITED_TRUE,
-        forcerange=[-1.0, 1.0],
+        forcerange=[-servo.strongest, servo.strongest],
     )
 
 
-def _tune(model: mujoco.MjModel, name: str, inertia: float, bandwidth_hz: float, strongest: float) -> None:
-    actuator, rate = model.actuator(name), 2.0 * np.pi * bandwidth_hz
-    actuator.gainprm[0] = rate**2 * inertia
-    actuator.biasprm[1] = -(rate**2) * inertia
-    actuator.biasprm[2] = -2.0 * rate * inertia
-    actuator.forcerange[:] = [-strongest, strongest]
-
-
 def _exclude(spec: mujoco.MjSpec, robot: RobotFile, names: list[str]) -> None:
-    """Neighbours, what the file says may touch, the base on whatever it stands on, and finger on finger."""
+    """Neighbours, what the file says may touch, and finger on finger."""
     bodies = {"gripper": (GRIPPER,), "fingers": FINGERS}
     bodies |= {link.name: (name,) for link, name in zip(robot.links, names, strict=True)}
-    pairs = [*pairwise(names), (names[-1], GRIPPER), (BASE, SUPPORT), FINGERS]
+    pairs = [*pairwise(names), (names[-1], GRIPPER), FINGERS]
     pairs += [(GRIPPER, finger) for finger in FINGERS]
     for first, second in robot.may_touch:
         pairs += [(one, other) for one in bodies[first] for other in bodies[second]]

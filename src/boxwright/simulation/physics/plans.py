@@ -20,7 +20,7 @@ from boxwright.types import Model, Plan, Truth
 Array = NDArray[np.float64]
 
 
-def simulate_plan(
+def simulate(
     plan: Plan,
     model: Model,
     truth: Truth | None = None,
@@ -68,7 +68,7 @@ def simulate_plan(
 def scene_boxes(
     plan: Plan, model: Model, truth: Truth | None, base_from_input: Array, thickness_m: float | None
 ) -> tuple[BoardBox, Sequence[BoardBox]]:
-    """The box to close, and the others of the scene, in the robot's base frame; errors as `simulate_plan`."""
+    """The box to close, and the others of the scene, in the robot's base frame; errors as `simulate`."""
     if not 0 <= plan.object < len(model.objects):
         raise ValueError(f"the plan is for object {plan.object}; the model has {len(model.objects)}, counted from 0")
     modelled = modelled_box(model.objects[plan.object], model.up, base_from_input, thickness_m)
