@@ -6,6 +6,7 @@ from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
 from boxwright.types.plan import FlapOutcome, FlapStatus, Plan, PlanSegment, SegmentKind, SmallestMove
 from boxwright.types.segments import Segment, Segmentation
+from boxwright.types.simulation import FlapVerdict, Simulation
 from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
 
 __all__ = [
@@ -13,6 +14,7 @@ __all__ = [
     "Cloud",
     "FlapOutcome",
     "FlapStatus",
+    "FlapVerdict",
     "Inference",
     "Intrinsics",
     "Joint",
@@ -30,6 +32,7 @@ __all__ = [
     "Segment",
     "SegmentKind",
     "Segmentation",
+    "Simulation",
     "SmallestMove",
     "Source",
     "SupportPlane",
