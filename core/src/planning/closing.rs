@@ -42,6 +42,31 @@ pub struct Outcome {
     pub status: Status,
     /// One line; empty where it is planned.
     pub reason: String,
+    /// Spent on its pushes.
+    pub seconds: f64,
+}
+
+impl Outcome {
+    pub fn new(status: Status, reason: String) -> Self {
+        Self { status, reason, seconds: 0.0 }
+    }
+}
+
+impl WhyNot {
+    fn outcome(self) -> Outcome {
+        Outcome::new(self.status, self.reason)
+    }
+}
+
+impl Kind {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Transit => "transit",
+            Self::Approach => "approach",
+            Self::Push => "push",
+            Self::Retreat => "retreat",
+        }
+    }
 }
 
 /// A closing without times.
@@ -71,17 +96,22 @@ impl<G: Guard> Closer<'_, G> {
         let open: Vec<usize> = (0..outcomes.len()).filter(|&flap| outcomes[flap].is_none()).collect();
         let ordered = order::search(self, &open, &angles_rad);
         for (flap, why) in ordered.why_not {
-            outcomes[flap] = Some(Outcome { status: why.status, reason: why.reason });
+            outcomes[flap] = Some(why.outcome());
         }
         let mut way = Way { closer: self, at: *start, angles_rad, order: Vec::new(), pieces: Vec::new() };
         for (flap, push) in ordered.order.into_iter().zip(ordered.pushes) {
             outcomes[flap] = Some(match way.close(flap, push) {
-                Ok(()) => Outcome { status: Status::Planned, reason: String::new() },
-                Err(why) => Outcome { status: why.status, reason: why.reason },
+                Ok(()) => Outcome::new(Status::Planned, String::new()),
+                Err(why) => why.outcome(),
             });
         }
         way.home(start);
-        let unknown = || Outcome { status: Status::OutOfTime, reason: "was not tried".into() };
+        for (outcome, seconds) in outcomes.iter_mut().zip(ordered.seconds) {
+            if let Some(outcome) = outcome {
+                outcome.seconds = seconds;
+            }
+        }
+        let unknown = || Outcome::new(Status::OutOfTime, "was not tried".into());
         Closing {
             order: way.order,
             outcomes: outcomes.into_iter().map(|outcome| outcome.unwrap_or_else(unknown)).collect(),
@@ -92,7 +122,7 @@ impl<G: Guard> Closer<'_, G> {
     /// What is known of a flap without planning.
     pub fn needs_nothing(&self, flap: usize) -> Option<Outcome> {
         let flap = &self.problem.flaps[flap];
-        let outcome = |status, reason: String| Some(Outcome { status, reason });
+        let outcome = |status, reason: String| Some(Outcome::new(status, reason));
         match flap.standing {
             Standing::Absent => outcome(Status::Absent, "is not there".into()),
             Standing::Hidden => outcome(Status::Hidden, "was not seen, so where it stands is not known".into()),

@@ -31,4 +31,7 @@ impl Moment {
 pub trait Guard {
     /// The first thing that a posture comes nearer to than `clearance_m`, or None.
     fn conflict(&self, positions_rad: &[f64], moment: &Moment, clearance_m: f64) -> Option<Obstacle>;
+
+    /// A new question begins: what comes too near to what is told again.
+    fn explain_anew(&self) {}
 }

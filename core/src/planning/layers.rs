@@ -139,7 +139,7 @@ impl<G: Guard> Layers<'_, G> {
     fn grips_by_penalty(&self) -> Vec<([usize; 2], usize)> {
         let frame = self.contacts.flap.frame(self.angles_rad[0]);
         let mut found = Vec::new();
-        for orientation in 0..OrientationGrid::shared().len() {
+        for orientation in 0..OrientationGrid::shared().size() {
             let rotation = self.contacts.rotation(orientation);
             for along in 0..self.contacts.along_m.len() {
                 for away in 0..self.contacts.away_m.len() {

@@ -3,6 +3,7 @@
 //! Geometry of flaps and fingers (`flap`, `touch`, `contact`), the layered search of one push (`layers`, `push`), the ways to it and
 //! between flaps (`line`, `transit`), and the order (`boards`, `order`, `closing`). Metres, radians, the robot's base frame.
 
+mod answer;
 mod boards;
 mod closing;
 mod contact;
@@ -15,11 +16,14 @@ mod orientations;
 mod problem;
 mod push;
 mod reason;
+mod request;
 mod settings;
+mod surroundings;
 mod timing;
 mod touch;
 mod transit;
 
+pub use answer::{Answer, FlapAnswer, Segment};
 pub use boards::quads_cross;
 pub use closing::{Closer, Closing, Kind, Outcome, Piece};
 pub use contact::{Contacts, Grip};
@@ -29,6 +33,8 @@ pub use order::ascending_area;
 pub use problem::{Board, BoxProblem, MeasuredBox, MeasuredFlap};
 pub use push::{closed_finger, PushMotion, Pusher};
 pub use reason::{Obstacle, Status, WhyNot};
+pub use request::{Request, SceneBox};
 pub use settings::PlanningSettings;
 pub use touch::Finger;
+pub use surroundings::Surroundings;
 pub use timing::{time, Bounds, Timed};

@@ -1,6 +1,7 @@
 //! In which order flaps are closed.
 
 use std::collections::HashMap;
+use std::time::Instant;
 
 use super::closing::Closer;
 use super::guard::{Guard, Moment};
@@ -12,6 +13,8 @@ pub struct Ordered {
     pub order: Vec<usize>,
     pub pushes: Vec<PushMotion>,
     pub why_not: Vec<(usize, WhyNot)>,
+    /// Spent on each flap, in the problem's order.
+    pub seconds: Vec<f64>,
 }
 
 type Tried = Result<PushMotion, WhyNot>;
@@ -19,7 +22,7 @@ type Tried = Result<PushMotion, WhyNot>;
 /// Depth first over orders, the likeliest first, each push planned once for each set of flaps closed before it. The first order that
 /// closes all ends the search; else the first of those that close most.
 pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
-    let mut search = Search { closer, known: HashMap::new(), best: Vec::new(), wanted: open.len() };
+    let mut search = Search { closer, known: HashMap::new(), best: Vec::new(), wanted: open.len(), seconds: vec![0.0; angles_rad.len()] };
     let ranked = likeliest_first(closer, open);
     search.extend(&mut Vec::new(), &ranked, angles_rad);
     let best = search.best.clone();
@@ -36,7 +39,7 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
             _ => None,
         })
         .collect();
-    Ordered { order: best, pushes, why_not }
+    Ordered { order: best, pushes, why_not, seconds: search.seconds }
 }
 
 /// As the paper closes them: by area, ties by number, each once, whatever becomes of the others.
@@ -67,6 +70,7 @@ struct Search<'a, 'b, G: Guard> {
     known: HashMap<(usize, u32), Tried>,
     best: Vec<usize>,
     wanted: usize,
+    seconds: Vec<f64>,
 }
 
 impl<G: Guard> Search<'_, '_, G> {
@@ -97,7 +101,9 @@ impl<G: Guard> Search<'_, '_, G> {
     fn can_push(&mut self, flap: usize, before: &[usize], angles_rad: &[f64]) -> bool {
         let key = (flap, closed_set(before));
         if !self.known.contains_key(&key) {
+            let started = Instant::now();
             let tried = self.closer.push(flap, &Moment::resting(angles_rad));
+            self.seconds[flap] += started.elapsed().as_secs_f64();
             self.known.insert(key, tried);
         }
         self.known[&key].is_ok()

@@ -16,8 +16,6 @@ const NEAR_RAD: f64 = 0.80;
 /// Rotations flap_from_tool of a closed flap, and for each those within reach of one step, itself first.
 pub struct OrientationGrid {
     pub rotations: Vec<UnitQuaternion<f64>>,
-    /// Direction (0..) of each: those of one direction differ by roll alone.
-    pub directions: Vec<usize>,
     pub near: Vec<Vec<(usize, f64)>>,
 }
 
@@ -30,24 +28,18 @@ impl OrientationGrid {
 
     fn new() -> Self {
         let mut rotations = Vec::new();
-        let mut directions = Vec::new();
-        for (number, direction) in tool_directions().into_iter().enumerate() {
+        for direction in tool_directions() {
             for roll in 0..ROLLS {
                 let roll_rad = std::f64::consts::TAU * roll as f64 / ROLLS as f64;
                 rotations.push(pointing(&direction, roll_rad));
-                directions.push(number);
             }
         }
         let near = rotations.iter().map(|from| nearest_first(from, &rotations)).collect();
-        Self { rotations, directions, near }
+        Self { rotations, near }
     }
 
-    pub fn len(&self) -> usize {
+    pub fn size(&self) -> usize {
         self.rotations.len()
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.rotations.is_empty()
     }
 }
 
@@ -101,10 +93,10 @@ mod tests {
     #[test]
     fn every_direction_has_neighbours_and_its_own_axes_are_there() {
         let grid = OrientationGrid::shared();
-        assert_eq!(grid.len(), 66 * ROLLS);
+        assert_eq!(grid.size(), 66 * ROLLS);
         for (k, near) in grid.near.iter().enumerate() {
             assert_eq!(near[0].0, k);
-            let others = near.iter().filter(|(other, _)| grid.directions[*other] != grid.directions[k]);
+            let others = near.iter().filter(|(other, _)| other / ROLLS != k / ROLLS);
             assert!(others.count() >= 3, "{k}: {near:?}");
         }
         for axis in [Vec3::x(), -Vec3::x(), Vec3::y(), -Vec3::y(), Vec3::z(), -Vec3::z()] {

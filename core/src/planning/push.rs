@@ -62,6 +62,7 @@ impl<G: Guard> Pusher<'_, G> {
         let held = self.moment.pushing(self.flap, self.hold_rad);
         let touching = self.moment.pushing(self.flap, angles_rad[0]);
         let mut why = None;
+        self.guard.explain_anew();
         for &beam in &self.settings.beams {
             let found = layers.search(
                 beam,

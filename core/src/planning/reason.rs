@@ -11,6 +11,8 @@ pub enum Obstacle {
     Limit { joint: String },
     /// This body comes too near to that one.
     Near { body: String, other: String },
+    /// Something comes too near to something; which was not asked.
+    Something,
     /// Two boards meet, whatever the arm does.
     Boards { flap: String, other: String },
     /// The arm cannot follow without a jump of its joints.
@@ -25,6 +27,7 @@ impl fmt::Display for Obstacle {
             Self::Reach => write!(f, "is out of the arm's reach"),
             Self::Limit { joint } => write!(f, "is reached only beyond the limits of {joint}"),
             Self::Near { body, other } => write!(f, "{body} comes too near to {other}"),
+            Self::Something => write!(f, "something is in the way"),
             Self::Boards { flap, other } => write!(f, "{flap} meets {other}"),
             Self::Jump => write!(f, "the arm would have to change its posture while pushing"),
             Self::NoWay { to } => write!(f, "no way was found {to}"),

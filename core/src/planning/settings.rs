@@ -46,6 +46,14 @@ pub struct PlanningSettings {
     pub transit_tries: usize,
     pub transit_seed: u64,
     pub shortcuts: usize,
+    /// Shares of the joints' speeds and accelerations that are used in free space, and near or on a flap.
+    pub free_share: f64,
+    pub contact_share: f64,
+    /// How fast a flap is turned, and how fast the point of touch moves, at most.
+    pub hinge_rad_per_s: f64,
+    pub contact_m_per_s: f64,
+    /// Between two samples of the motion.
+    pub period_s: f64,
 }
 
 impl Default for PlanningSettings {
@@ -75,6 +83,11 @@ impl Default for PlanningSettings {
             transit_tries: 4000,
             transit_seed: 0x2011,
             shortcuts: 60,
+            free_share: 0.8,
+            contact_share: 0.4,
+            hinge_rad_per_s: 1.0,
+            contact_m_per_s: 0.25,
+            period_s: 0.01,
         }
     }
 }

@@ -1,0 +1,64 @@
+//! The planner's face: one question as data, one answer as data.
+
+use serde::Deserialize;
+
+use super::answer::{timed, Answer};
+use super::closing::Closer;
+use super::problem::MeasuredBox;
+use super::settings::PlanningSettings;
+use super::surroundings::Surroundings;
+use crate::arm::Arm;
+use crate::collision::{OrientedBox, Solid};
+use crate::error::{InputError, Result};
+use crate::geometry::{Rigid, Vec3};
+
+/// A box beside the one to close: its centre's pose and its sizes, metres, base frame.
+#[derive(Debug, Clone, Deserialize)]
+pub struct SceneBox {
+    pub name: String,
+    pub centre_m: [f64; 3],
+    /// Rows of the rotation from the box's axes to the base's.
+    pub rotation: [[f64; 3]; 3],
+    pub size_m: [f64; 3],
+}
+
+/// What is to be closed, amid what, and how.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Request {
+    #[serde(rename = "box")]
+    pub measured: MeasuredBox,
+    #[serde(default)]
+    pub scene: Vec<SceneBox>,
+    #[serde(default)]
+    pub settings: PlanningSettings,
+}
+
+impl Request {
+    /// # Errors
+    /// Where the text is no request.
+    pub fn from_json(text: &str) -> Result<Self> {
+        serde_json::from_str(text).map_err(|error| InputError::new(error.to_string()).in_source("planning request"))
+    }
+
+    /// Plans the closing with that arm, from its ready pose and back.
+    ///
+    /// # Errors
+    /// Where there is nothing to close, or where the arm's base stands inside the box.
+    pub fn plan(self, arm: &Arm) -> Result<Answer> {
+        let problem = self.measured.into_problem()?;
+        let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
+        let guard = Surroundings::new(arm, &problem, scene);
+        guard.check_base()?;
+        let settings = &self.settings;
+        let closing = Closer { arm, guard: &guard, problem: &problem, settings }.plan(&arm.ready);
+        Ok(timed(&closing, arm, &problem, settings))
+    }
+}
+
+impl SceneBox {
+    fn solid(&self) -> Solid {
+        let rotation = nalgebra::Matrix3::from_fn(|row, column| self.rotation[row][column]);
+        let pose = Rigid::new(rotation, Vec3::from(self.centre_m));
+        Solid::Box(OrientedBox::new(pose, Vec3::from(self.size_m) / 2.0))
+    }
+}
