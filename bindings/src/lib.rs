@@ -6,6 +6,7 @@ mod cloud;
 mod convert;
 mod model;
 mod perception;
+mod planning;
 mod problem;
 mod sensor;
 
@@ -14,6 +15,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     cloud::register(m)?;
     perception::register(m)?;
     model::register(m)?;
+    planning::register(m)?;
     problem::register(m)?;
     sensor::register(m)?;
     Ok(())

@@ -310,3 +310,8 @@ class Problem:
 
     def exhaustive(self, weights: NDArray[np.float64]) -> tuple[NDArray[np.int64], float, int]:
         """The best of all assignments (parts,), its score, and how many were tried: small problems only."""
+
+# --- planning ---
+
+def plan_closing(robot: str, request: str) -> str:
+    """The text of a robot's file and a request as JSON (`core::planning::Request`); the motion as JSON."""

@@ -9,6 +9,7 @@ use super::settings::PlanningSettings;
 use super::timing::{time, Bounds, Timed};
 use super::transit::widest_turn;
 use crate::arm::{Arm, JointPositions};
+use crate::error::{InputError, Result};
 use crate::geometry::Vec3;
 
 /// A piece of the motion with N samples; the keys are plan.json's.
@@ -40,9 +41,19 @@ pub struct FlapAnswer {
 /// What plan.json says of the motion.
 #[derive(Debug, Clone, Serialize)]
 pub struct Answer {
+    pub robot: String,
+    pub joint_names: Vec<String>,
     pub order: Vec<String>,
     pub flaps: Vec<FlapAnswer>,
     pub segments: Vec<Segment>,
+}
+
+impl Answer {
+    /// # Errors
+    /// Where a number is none: a fault of the planner.
+    pub fn to_json(&self) -> Result<String> {
+        serde_json::to_string(self).map_err(|error| InputError::new(error.to_string()).in_source("plan"))
+    }
 }
 
 /// Directions of two steps whose cosine is below this make a corner, at which the arm stops.
@@ -65,7 +76,13 @@ pub fn timed(closing: &Closing, arm: &Arm, problem: &BoxProblem, settings: &Plan
         reason: (!outcome.reason.is_empty()).then(|| outcome.reason.clone()),
         seconds: outcome.seconds,
     });
-    Answer { order: closing.order.iter().map(|&flap| name(flap)).collect(), flaps: flaps.collect(), segments }
+    Answer {
+        robot: arm.name.clone(),
+        joint_names: arm.joints.iter().map(|joint| joint.name.clone()).collect(),
+        order: closing.order.iter().map(|&flap| name(flap)).collect(),
+        flaps: flaps.collect(),
+        segments,
+    }
 }
 
 fn segment(piece: &Piece, arm: &Arm, problem: &BoxProblem, settings: &PlanningSettings, start_s: f64) -> Segment {
