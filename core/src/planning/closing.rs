@@ -5,8 +5,10 @@ use super::contact::Contacts;
 use super::flap::Standing;
 use super::guard::{Guard, Moment};
 use super::order;
+use super::planes::PlanesSearch;
 use super::problem::BoxProblem;
 use super::push::{closed_finger, PushMotion, Pusher};
+use super::request::Method;
 use super::reason::{Obstacle, Status, WhyNot};
 use super::settings::PlanningSettings;
 use super::transit::Transit;
@@ -85,6 +87,9 @@ pub struct Closer<'a, G: Guard> {
     pub guard: &'a G,
     pub problem: &'a BoxProblem,
     pub settings: &'a PlanningSettings,
+    pub method: Method,
+    /// The flaps to close, by name; all that are open where there are none.
+    pub only: &'a [String],
 }
 
 impl<G: Guard> Closer<'_, G> {
@@ -93,8 +98,12 @@ impl<G: Guard> Closer<'_, G> {
         let angles_rad: Vec<f64> = self.problem.flaps.iter().map(|flap| flap.position_rad).collect();
         let mut outcomes: Vec<Option<Outcome>> =
             (0..angles_rad.len()).map(|flap| self.needs_nothing(flap)).collect();
-        let open: Vec<usize> = (0..outcomes.len()).filter(|&flap| outcomes[flap].is_none()).collect();
-        let ordered = order::search(self, &open, &angles_rad);
+        let asked = |flap: usize| self.only.is_empty() || self.only.contains(&self.problem.flaps[flap].name);
+        let open: Vec<usize> = (0..outcomes.len()).filter(|&flap| outcomes[flap].is_none() && asked(flap)).collect();
+        let ordered = match self.method {
+            Method::Layered => order::search(self, &open, &angles_rad),
+            Method::Paper => order::ascending_area(self, &open, &angles_rad),
+        };
         for (flap, why) in ordered.why_not {
             outcomes[flap] = Some(why.outcome());
         }
@@ -151,10 +160,17 @@ impl<G: Guard> Closer<'_, G> {
     /// # Errors
     /// The status and the reason why there is none.
     pub fn push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
+        if self.method == Method::Paper {
+            return self.paper_push(flap, moment);
+        }
         let hold_rad = self.hold_rad(flap, moment);
         if let Some(obstacle) = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings) {
-            return Err(WhyNot { status: Status::Blocked, reason: obstacle.to_string() });
+            return Err(WhyNot { status: Status::Blocked, reason: obstacle.to_string(), by_flaps: true });
         }
+        self.pusher(flap, moment, hold_rad).plan()
+    }
+
+    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Pusher<'_, G> {
         let half_board_m = self.problem.thickness_m / 2.0;
         Pusher {
             arm: self.arm,
@@ -166,7 +182,12 @@ impl<G: Guard> Closer<'_, G> {
             hold_rad,
             rest_rad: self.settings.rest_rad,
         }
-        .plan()
+    }
+
+    /// The paper's push, to closed and no further.
+    fn paper_push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
+        let pusher = self.pusher(flap, moment, 0.0);
+        PlanesSearch { pusher: &pusher, settings: self.settings }.plan()
     }
 }
 
@@ -186,7 +207,7 @@ impl<G: Guard> Way<'_, '_, G> {
         let ready = self.closer.arm.ready;
         let Some(transit) = self.transit(&push.approach[0], &ready) else {
             let reason = Obstacle::NoWay { to: "to it" }.to_string();
-            return Err(WhyNot { status: Status::Blocked, reason });
+            return Err(WhyNot { status: Status::Blocked, reason, by_flaps: false });
         };
         self.add(Kind::Transit, None, transit, Vec::new(), Vec::new());
         self.add(Kind::Approach, Some(flap), push.approach, Vec::new(), Vec::new());

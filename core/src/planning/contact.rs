@@ -43,7 +43,7 @@ impl<'a> Contacts<'a> {
             half_board_m,
             settings,
             along_m: spread(inset, flap.hinge_length_m() - inset, settings.contact_step_m, most_along),
-            away_m: spread(least_away, flap.length_m() - inset, settings.contact_step_m, most_away),
+            away_m: spread(least_away, flap.length_m() + settings.contact_beyond_m, settings.contact_step_m, most_away),
             closed_from_base: UnitQuaternion::from_rotation_matrix(&rotation),
         }
     }

@@ -83,8 +83,9 @@ impl Flap {
         self.name.rsplit('_').next()?.parse().ok()
     }
 
-    pub fn is_neighbour_of(&self, other: &Flap) -> bool {
-        matches!((self.number(), other.number()), (Some(a), Some(b)) if (a + b) % 2 == 1)
+    /// Is it called so, or what hangs on it?
+    pub fn is_own(&self, name: &str) -> bool {
+        self.name == name || self.tucks.iter().any(|(tuck, _)| tuck == name)
     }
 
     pub fn hinge_middle(&self) -> Vec3 {

@@ -1,4 +1,5 @@
 use super::reason::Obstacle;
+use crate::geometry::Rigid;
 
 /// Where the flaps are at a moment, and which of them the fingers may touch.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +32,9 @@ impl Moment {
 pub trait Guard {
     /// The first thing that a posture comes nearer to than `clearance_m`, or None.
     fn conflict(&self, positions_rad: &[f64], moment: &Moment, clearance_m: f64) -> Option<Obstacle>;
+
+    /// The same of the gripper and its fingers alone, wherever the arm is that holds them: quick, and mostly enough to say no.
+    fn tool_conflict(&self, base_from_tool: &Rigid, moment: &Moment, clearance_m: f64) -> Option<Obstacle>;
 
     /// A new question begins: what comes too near to what is told again.
     fn explain_anew(&self) {}

@@ -31,8 +31,9 @@ pub struct Layers<'a, G: Guard> {
     pub flap: usize,
     /// Where all flaps are; this one moves.
     pub moment: &'a Moment,
-    /// Hinge angles, first to last, rad.
+    /// Hinge angles, first to last, rad, and where all flaps are then.
     pub angles_rad: &'a [f64],
+    pub moments: &'a [Moment],
 }
 
 /// How far a search came: whole paths by cost, or the layer at which it ended and what was in the way.
@@ -104,10 +105,10 @@ impl<G: Guard> Layers<'_, G> {
         let mut kept = Kept::new(START_WIDTH * beam, beam);
         let mut tries = 0;
         for (place, orientation) in self.grips_by_penalty() {
-            if kept.is_full() || tries > START_TRIES * beam {
+            if kept.is_full() || tries > START_TRIES {
                 break;
             }
-            let Some(reached) = self.reached(0, place, orientation, None, &memory) else { continue };
+            let Some(reached) = self.reached(0, place, orientation, None, &memory, tally) else { continue };
             let (grip, solutions) = &*reached;
             if solutions.is_empty() {
                 tally.add(self.out_of_reach(grip));
@@ -194,7 +195,8 @@ impl<G: Guard> Layers<'_, G> {
         let turned = near.iter().map(|&(orientation, angle_rad)| (state.place, orientation, 0.3 * angle_rad));
         let slid = self.places_beside(state.place).map(|place| (place, state.orientation, 0.15));
         for (place, orientation, change) in turned.chain(slid) {
-            let Some(reached) = self.reached(layer, place, orientation, Some(&state.positions), memory) else { continue };
+            let near = Some(&state.positions);
+            let Some(reached) = self.reached(layer, place, orientation, near, memory, tally) else { continue };
             let (grip, solutions) = &*reached;
             if solutions.is_empty() {
                 tally.add(self.out_of_reach(grip));
@@ -250,13 +252,22 @@ impl<G: Guard> Layers<'_, G> {
         orientation: usize,
         near: Option<&JointPositions>,
         memory: &Memory,
+        tally: &mut Tally,
     ) -> Reached {
         if let Some(known) = memory.borrow().get(&(place, orientation)) {
             return known.clone();
         }
         let frame = self.contacts.flap.frame(self.angles_rad[layer]);
         let grip = self.contacts.grip(&frame, self.place_m(place), &self.contacts.rotation(orientation));
-        let reached = grip.map(|grip| {
+        let moment = &self.moments[layer];
+        let clear = grip.filter(|grip| match self.guard.tool_conflict(&grip.base_from_tool, moment, self.clearance_m()) {
+            Some(obstacle) => {
+                tally.add(obstacle);
+                false
+            }
+            None => true,
+        });
+        let reached = clear.map(|grip| {
             let solutions = match near {
                 Some(near) => self.arm.inverse_near(&grip.base_from_tool, near),
                 None => self.arm.inverse(&grip.base_from_tool),
@@ -290,8 +301,11 @@ impl<G: Guard> Layers<'_, G> {
     }
 
     fn conflict(&self, positions: &JointPositions, angle_rad: f64) -> Option<Obstacle> {
-        let moment = self.moment.pushing(self.flap, angle_rad);
-        self.guard.conflict(positions, &moment, self.settings.clearance_m + self.settings.search_margin_m)
+        self.guard.conflict(positions, &self.moment.pushing(self.flap, angle_rad), self.clearance_m())
+    }
+
+    fn clearance_m(&self) -> f64 {
+        self.settings.clearance_m + self.settings.search_margin_m
     }
 
     /// Why no posture reaches a pose: the joint that is short, in the branch that is the least short, or the reach.
@@ -314,9 +328,9 @@ impl<G: Guard> Layers<'_, G> {
 
 /// Whole paths handed back, at most.
 const MOST_PATHS: usize = 6;
-/// The first layer is this much wider than the others, and this many postures are tried for each state kept.
+/// The first layer is this much wider than the others, and this many postures are tried for it.
 const START_WIDTH: usize = 2;
-const START_TRIES: usize = 60;
+const START_TRIES: usize = 2000;
 const LIMIT_NEAR_RAD: f64 = 0.15;
 
 impl State {

@@ -22,7 +22,7 @@ type Tried = Result<PushMotion, WhyNot>;
 /// Depth first over orders, the likeliest first, each push planned once for each set of flaps closed before it. The first order that
 /// closes all ends the search; else the first of those that close most.
 pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
-    let mut search = Search { closer, known: HashMap::new(), best: Vec::new(), wanted: open.len(), seconds: vec![0.0; angles_rad.len()] };
+    let mut search = Search { closer, known: HashMap::new(), best: Vec::new(), wanted: open.len(), seconds: vec![0.0; angles_rad.len()], hopeless: Vec::new() };
     let ranked = likeliest_first(closer, open);
     search.extend(&mut Vec::new(), &ranked, angles_rad);
     let best = search.best.clone();
@@ -34,20 +34,31 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
     }
     let left = ranked.iter().filter(|flap| !best.contains(flap));
     let why_not = left
-        .filter_map(|&flap| match search.known.get(&(flap, closed_set(&best))) {
-            Some(Err(why)) => Some((flap, why.clone())),
-            _ => None,
-        })
+        .filter_map(|&flap| Some((flap, search.why_not(flap, &best)?)))
         .collect();
     Ordered { order: best, pushes, why_not, seconds: search.seconds }
 }
 
 /// As the paper closes them: by area, ties by number, each once, whatever becomes of the others.
-pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize]) -> Vec<usize> {
-    let mut order = open.to_vec();
+pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
+    let mut ranked = open.to_vec();
     let area = |flap: usize| closer.problem.flaps[flap].area_m2();
-    order.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
-    order
+    ranked.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
+    let mut angles_rad = angles_rad.to_vec();
+    let mut found = Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new(), seconds: vec![0.0; angles_rad.len()] };
+    for flap in ranked {
+        let started = Instant::now();
+        match closer.push(flap, &Moment::resting(&angles_rad)) {
+            Ok(push) => {
+                angles_rad[flap] = closer.settings.rest_rad;
+                found.order.push(flap);
+                found.pushes.push(push);
+            }
+            Err(why) => found.why_not.push((flap, why)),
+        }
+        found.seconds[flap] = started.elapsed().as_secs_f64();
+    }
+    found
 }
 
 /// What goes under goes first: short hinges carry the minor flaps of a carton, short flaps lie under long ones, and what carries a
@@ -71,6 +82,8 @@ struct Search<'a, 'b, G: Guard> {
     best: Vec<usize>,
     wanted: usize,
     seconds: Vec<f64>,
+    /// Flaps that nothing but themselves, the arm and what stands still keeps open.
+    hopeless: Vec<usize>,
 }
 
 impl<G: Guard> Search<'_, '_, G> {
@@ -79,7 +92,7 @@ impl<G: Guard> Search<'_, '_, G> {
         if order.len() > self.best.len() {
             self.best.clone_from(order);
         }
-        if order.len() == self.wanted {
+        if order.len() + self.hopeless.len() == self.wanted {
             return true;
         }
         for &flap in rest {
@@ -98,12 +111,25 @@ impl<G: Guard> Search<'_, '_, G> {
         false
     }
 
+    /// Why a flap cannot be closed after those of an order, or before any.
+    fn why_not(&self, flap: usize, order: &[usize]) -> Option<WhyNot> {
+        let sets = (0..=order.len()).rev().map(|count| closed_set(&order[..count]));
+        let mut tried = sets.filter_map(|set| self.known.get(&(flap, set)));
+        tried.find_map(|tried| tried.as_ref().err().cloned())
+    }
+
     fn can_push(&mut self, flap: usize, before: &[usize], angles_rad: &[f64]) -> bool {
+        if self.hopeless.contains(&flap) {
+            return false;
+        }
         let key = (flap, closed_set(before));
         if !self.known.contains_key(&key) {
             let started = Instant::now();
             let tried = self.closer.push(flap, &Moment::resting(angles_rad));
             self.seconds[flap] += started.elapsed().as_secs_f64();
+            if tried.as_ref().is_err_and(|why| !why.by_flaps) {
+                self.hopeless.push(flap);
+            }
             self.known.insert(key, tried);
         }
         self.known[&key].is_ok()

@@ -44,23 +44,26 @@ impl<G: Guard> Pusher<'_, G> {
     /// # Errors
     /// The status and the reason why there is none.
     pub fn plan(&self) -> Result<PushMotion, WhyNot> {
+        let pressed = self.pressed();
         let angles_rad = layers_between(self.moment.angles_rad[self.flap], self.hold_rad, self.settings.layer_rad);
+        let moments: Vec<Moment> = angles_rad.iter().map(|&angle_rad| pressed.pushing(self.flap, angle_rad)).collect();
         let layers = Layers {
             arm: self.arm,
             guard: self.guard,
             contacts: &self.contacts,
             settings: self.settings,
             flap: self.flap,
-            moment: &self.moment,
+            moment: &pressed,
             angles_rad: &angles_rad,
+            moments: &moments,
         };
         let lines = Lines { arm: self.arm, guard: self.guard, settings: self.settings };
         let start = self.contacts.flap.frame(angles_rad[0]);
         let end = self.contacts.flap.frame(self.hold_rad);
         let before = self.moment.clone();
-        let after = self.moment.left(self.flap, self.rest_rad);
-        let held = self.moment.pushing(self.flap, self.hold_rad);
-        let touching = self.moment.pushing(self.flap, angles_rad[0]);
+        let after = pressed.left(self.flap, self.rest_rad);
+        let held = pressed.pushing(self.flap, self.hold_rad);
+        let touching = pressed.pushing(self.flap, angles_rad[0]);
         let mut why = None;
         self.guard.explain_anew();
         for &beam in &self.settings.beams {
@@ -83,7 +86,18 @@ impl<G: Guard> Pusher<'_, G> {
                 }
             }
         }
-        Err(why.unwrap_or(WhyNot { status: Status::OutOfTime, reason: "the search was not allowed any state".into() }))
+        Err(why.unwrap_or(WhyNot { status: Status::OutOfTime, reason: "no search was allowed".into(), by_flaps: false }))
+    }
+
+    /// Where the flaps are during the push: those that are closed already give way to the one that comes to lie on them.
+    pub fn pressed(&self) -> Moment {
+        let mut pressed = self.moment.clone();
+        for (flap, angle_rad) in pressed.angles_rad.iter_mut().enumerate() {
+            if flap != self.flap && angle_rad.abs() <= self.settings.closed_rad {
+                *angle_rad = angle_rad.min(self.hold_rad - self.settings.under_rad);
+            }
+        }
+        pressed
     }
 
     /// The path of a search, dense, smooth where that keeps the clearance, and with its ends.
@@ -99,8 +113,8 @@ impl<G: Guard> Pusher<'_, G> {
             .iter()
             .map(|state| (layers.place_m(state.place), self.contacts.rotation(state.orientation)))
             .collect();
-        let sampled = self.sampled(layers.angles_rad, &knots, path[0].positions, smooth);
-        let mut motion = sampled.or_else(|_| self.sampled(layers.angles_rad, &knots, path[0].positions, straight))?;
+        let sampled = self.sampled(layers, &knots, path[0].positions, smooth);
+        let mut motion = sampled.or_else(|_| self.sampled(layers, &knots, path[0].positions, straight))?;
         let grip_at = |angle_rad: f64, knot: &([f64; 2], UnitQuaternion<f64>)| {
             let frame = self.contacts.flap.frame(angle_rad);
             self.contacts.grip(&frame, knot.0, &knot.1).map(|grip| (frame, grip)).ok_or(Obstacle::Jump)
@@ -116,11 +130,12 @@ impl<G: Guard> Pusher<'_, G> {
 
     fn sampled(
         &self,
-        angles_rad: &[f64],
+        layers: &Layers<'_, G>,
         knots: &[([f64; 2], UnitQuaternion<f64>)],
         start: JointPositions,
         weigh: fn(f64, usize) -> Vec<(usize, f64)>,
     ) -> Result<PushMotion, Obstacle> {
+        let angles_rad = layers.angles_rad;
         let span_rad = (angles_rad[0] - self.hold_rad).abs();
         let steps = (span_rad / self.settings.sample_rad).ceil().max(1.0) as usize;
         let mut motion = PushMotion {
@@ -143,7 +158,7 @@ impl<G: Guard> Pusher<'_, G> {
             if step > 0 && turn > self.settings.most_sample_turn_rad {
                 return Err(Obstacle::Jump);
             }
-            let moment = self.moment.pushing(self.flap, angle_rad);
+            let moment = layers.moment.pushing(self.flap, angle_rad);
             let clearance_m = self.settings.clearance_m + self.settings.search_margin_m / 2.0;
             if let Some(obstacle) = self.guard.conflict(&positions, &moment, clearance_m) {
                 return Err(obstacle);
@@ -156,7 +171,7 @@ impl<G: Guard> Pusher<'_, G> {
         Ok(motion)
     }
 
-    fn why_stuck(&self, angle_rad: f64, at_start: bool, tally: &Tally) -> WhyNot {
+    pub fn why_stuck(&self, angle_rad: f64, at_start: bool, tally: &Tally) -> WhyNot {
         let degrees = angle_rad.to_degrees();
         let place = if at_start { "where it stands".to_string() } else { format!("at {degrees:.0} degrees") };
         let near = tally.commonest(|obstacle| matches!(obstacle, Obstacle::Near { .. } | Obstacle::NoWay { .. }));
@@ -169,7 +184,12 @@ impl<G: Guard> Pusher<'_, G> {
             (None, None, Some(other)) => (Status::Blocked, other),
             (None, None, None) => (Status::Unreachable, &Obstacle::Reach),
         };
-        WhyNot { status, reason: format!("{place}: {obstacle}") }
+        let by_flaps = tally.any(|obstacle| match obstacle {
+            Obstacle::Near { other, .. } => !self.contacts.flap.is_own(other) && other.starts_with(['f', 't']),
+            Obstacle::Something => true,
+            _ => false,
+        });
+        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps }
     }
 }
 
@@ -183,7 +203,7 @@ pub fn closed_finger(arm: &Arm) -> Finger {
     }
 }
 
-fn layers_between(from_rad: f64, to_rad: f64, step_rad: f64) -> Vec<f64> {
+pub fn layers_between(from_rad: f64, to_rad: f64, step_rad: f64) -> Vec<f64> {
     let count = ((from_rad - to_rad).abs() / step_rad).ceil().max(1.0) as usize;
     (0..=count).map(|k| from_rad + (to_rad - from_rad) * k as f64 / count as f64).collect()
 }

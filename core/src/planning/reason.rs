@@ -46,6 +46,10 @@ impl Tally {
         *self.counts.entry(obstacle).or_default() += 1;
     }
 
+    pub fn any(&self, passes: impl Fn(&Obstacle) -> bool) -> bool {
+        self.counts.keys().any(passes)
+    }
+
     /// The commonest of those that pass, ties by their order.
     pub fn commonest(&self, passes: impl Fn(&Obstacle) -> bool) -> Option<&Obstacle> {
         let passing = self.counts.iter().filter(|(obstacle, _)| passes(obstacle));
@@ -86,4 +90,6 @@ impl Status {
 pub struct WhyNot {
     pub status: Status,
     pub reason: String,
+    /// Whether other flaps had a part in it: then it may be otherwise once they have moved.
+    pub by_flaps: bool,
 }

@@ -31,6 +31,25 @@ pub struct Request {
     pub scene: Vec<SceneBox>,
     #[serde(default)]
     pub settings: PlanningSettings,
+    #[serde(default)]
+    pub method: Method,
+    /// Where it holds names: the flaps to close; all others stay as they are.
+    #[serde(default)]
+    pub only: Vec<String>,
+    /// Flaps that were closed before and rest where they were let go.
+    #[serde(default)]
+    pub closed: Vec<String>,
+}
+
+/// Which planner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Over contacts, tool angles and postures, in the order that closes most.
+    #[default]
+    Layered,
+    /// As of 2011: planes and samples, by ascending area.
+    Paper,
 }
 
 impl Request {
@@ -45,12 +64,16 @@ impl Request {
     /// # Errors
     /// Where there is nothing to close, or where the arm's base stands inside the box.
     pub fn plan(self, arm: &Arm) -> Result<Answer> {
-        let problem = self.measured.into_problem()?;
+        let mut problem = self.measured.into_problem()?;
+        let settings = &self.settings;
+        for flap in problem.flaps.iter_mut().filter(|flap| self.closed.contains(&flap.name)) {
+            flap.position_rad = settings.rest_rad;
+        }
         let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
         let guard = Surroundings::new(arm, &problem, scene);
         guard.check_base()?;
-        let settings = &self.settings;
-        let closing = Closer { arm, guard: &guard, problem: &problem, settings }.plan(&arm.ready);
+        let closer = Closer { arm, guard: &guard, problem: &problem, settings, method: self.method, only: &self.only };
+        let closing = closer.plan(&arm.ready);
         Ok(timed(&closing, arm, &problem, settings))
     }
 }

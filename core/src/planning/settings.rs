@@ -16,6 +16,8 @@ pub struct PlanningSettings {
     pub overclose_on_others_rad: f64,
     /// Where a flap that was let go is taken to rest.
     pub rest_rad: f64,
+    /// How far below a flap that is pushed onto others those are taken to give way.
+    pub under_rad: f64,
     /// Between two layers of the search, at most.
     pub layer_rad: f64,
     /// Between two samples of a push, at most.
@@ -25,8 +27,10 @@ pub struct PlanningSettings {
     /// Between contacts along and across a flap, and how many of them at most.
     pub contact_step_m: f64,
     pub most_contacts: [usize; 2],
-    /// Contacts keep this from the flap's ends, and this share of its length from the hinge.
+    /// Tool points keep this from the flap's lateral ends, reach this far beyond its free edge, and keep this share of its length from
+    /// the hinge.
     pub contact_inset_m: f64,
+    pub contact_beyond_m: f64,
     pub least_lever: f64,
     /// How far the tool's axis may lean back over the flap's edge, as the sine.
     pub most_lean: f64,
@@ -62,15 +66,17 @@ impl Default for PlanningSettings {
             clearance_m: 0.005,
             search_margin_m: 0.0015,
             closed_rad: 15f64.to_radians(),
-            overclose_rad: 8f64.to_radians(),
-            overclose_on_others_rad: 2f64.to_radians(),
+            overclose_rad: 9f64.to_radians(),
+            overclose_on_others_rad: 5f64.to_radians(),
             rest_rad: 4f64.to_radians(),
+            under_rad: 4f64.to_radians(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
-            beams: vec![16, 64, 200],
+            beams: vec![16, 80],
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,
+            contact_beyond_m: 0.005,
             least_lever: 0.35,
             most_lean: 0.8,
             least_hook_m: 0.010,

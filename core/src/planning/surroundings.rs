@@ -6,9 +6,10 @@ use super::flap::Standing;
 use super::guard::{Guard, Moment};
 use super::problem::BoxProblem;
 use super::reason::Obstacle;
-use crate::arm::Arm;
-use crate::collision::{ArmPieces, Checker, HalfSpace, OrientedBox, Rules, Solid, World, IGNORED};
+use crate::arm::{Arm, Shape};
+use crate::collision::{clear_by, ArmPieces, Checker, HalfSpace, OrientedBox, Rules, Solid, World, IGNORED};
 use crate::error::{InputError, Result};
+use crate::geometry::{Rigid, Vec3};
 
 /// An arm with its gripper closed before a box; moves the box's flaps as it is asked.
 pub struct Surroundings<'a> {
@@ -19,6 +20,8 @@ pub struct Surroundings<'a> {
     /// Of each flap: its board and its tucks in the world, none where it is absent.
     boards: Vec<Vec<usize>>,
     conflicts: Cell<usize>,
+    /// Fingers and gripper body: is it a finger, where it is in the tool's frame, half its sizes.
+    tool: Vec<(bool, Rigid, Vec3)>,
 }
 
 struct State {
@@ -57,6 +60,7 @@ impl<'a> Surroundings<'a> {
             state: RefCell::new(State { world, at: None, rules: Vec::new() }),
             boards,
             conflicts: Cell::new(0),
+            tool: tool_pieces(arm),
         }
     }
 
@@ -111,6 +115,18 @@ impl<'a> Surroundings<'a> {
     }
 }
 
+fn tool_pieces(arm: &Arm) -> Vec<(bool, Rigid, Vec3)> {
+    let gripper = &arm.gripper;
+    let tool_from_flange = gripper.flange_from_tool().inverse();
+    let fingers = gripper.fingers(gripper.opening_m[0]).map(|finger| (true, finger));
+    let shapes = fingers.into_iter().chain(std::iter::once((false, gripper.body())));
+    let boxes = shapes.filter_map(|(is_finger, shape)| match shape {
+        Shape::Box { body_from_box, half_m } => Some((is_finger, tool_from_flange.then(&body_from_box), half_m)),
+        Shape::Capsule { .. } => None,
+    });
+    boxes.collect()
+}
+
 /// Adds a flap's board and its tucks; what is not there adds nothing.
 fn add_flap(world: &mut World, problem: &BoxProblem, flap: usize) -> Vec<usize> {
     let flap = &problem.flaps[flap];
@@ -142,6 +158,31 @@ impl Guard for Surroundings<'_> {
             body: self.arm.body_name(nearest.body).to_string(),
             other: checker.other_name(nearest.other).to_string(),
         }))
+    }
+
+    fn tool_conflict(&self, base_from_tool: &Rigid, moment: &Moment, clearance_m: f64) -> Option<Obstacle> {
+        let state = &mut *self.state.borrow_mut();
+        self.place(state, moment);
+        let touched = moment.pushed.and_then(|flap| self.boards[flap].first());
+        for (is_finger, tool_from_piece, half_m) in &self.tool {
+            let piece = OrientedBox::new(base_from_tool.then(tool_from_piece), *half_m);
+            let radius_m = half_m.norm();
+            for (k, obstacle) in state.world.obstacles().iter().enumerate() {
+                let far = match &obstacle.solid {
+                    Solid::Box(thing) => thing.distance_to_point_m(&piece.centre()) - radius_m >= clearance_m,
+                    _ => false,
+                };
+                if far || (*is_finger && touched == Some(&k)) || clear_by(&Solid::Box(piece), &obstacle.solid, clearance_m) {
+                    continue;
+                }
+                let body = if *is_finger { self.arm.fingers_body() } else { self.arm.gripper_body() };
+                return Some(Obstacle::Near {
+                    body: self.arm.body_name(body).to_string(),
+                    other: obstacle.name.clone(),
+                });
+            }
+        }
+        None
     }
 
     fn explain_anew(&self) {

@@ -2,5 +2,7 @@
 
 from boxwright.planning.closing import plan_closing
 from boxwright.planning.measured import measured_box
+from boxwright.planning.placement import place_robot, with_moves
+from boxwright.planning.scene import read_scene
 
-__all__ = ["measured_box", "plan_closing"]
+__all__ = ["measured_box", "place_robot", "plan_closing", "read_scene", "with_moves"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Mapping
 from os import PathLike
@@ -11,11 +10,10 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from boxwright import _core
 from boxwright.kinematics.transforms import Matrix, from_pose
+from boxwright.planning.asking import ask
 from boxwright.planning.checks import refuse_poses, warnings_of
 from boxwright.planning.measured import measured_box
-from boxwright.robots import robot_text
 from boxwright.types import Model, Plan, Pose
 
 METHODS = ("layered", "paper")
@@ -51,8 +49,7 @@ def plan_closing(
     transform = from_pose(base_from_input) if isinstance(base_from_input, Pose) else np.asarray(base_from_input, float)
     box = measured_box(model, object_index, transform)
     refuse_poses(model, model.objects[object_index], transform)
-    request = {"box": box, "scene": list(scene), "method": method, "settings": dict(settings or {})}
-    answer = json.loads(_core.plan_closing(robot_text(robot), json.dumps(request)))
+    answer = ask(robot, box, settings, scene=scene, method=method)
     fields = {
         "format": "boxwright.plan",
         "version": 1,
