@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::closing::{Closing, Kind, Piece};
 use super::guard::{Guard, Moment};
 use super::problem::BoxProblem;
+use super::reason::{Obstacle, Status};
 use super::settings::PlanningSettings;
 use super::timing::{time, Bounds, Timed};
 use super::transit::widest_turn;
@@ -53,6 +54,46 @@ impl Answer {
     /// Where a number is none: a fault of the planner.
     pub fn to_json(&self) -> Result<String> {
         serde_json::to_string(self).map_err(|error| InputError::new(error.to_string()).in_source("plan"))
+    }
+}
+
+/// Where a motion violates what it must keep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conflict {
+    /// The flap that is pushed, or that the arm is on its way to or from.
+    pub flap: String,
+    pub time_s: f64,
+    pub obstacle: Obstacle,
+}
+
+/// Beyond a limit by less is on it.
+const ROUNDING_RAD: f64 = 1e-9;
+
+impl Answer {
+    /// The first conflict of each segment, of moments a step apart.
+    pub fn conflicts<G: Guard>(&self, arm: &Arm, guard: &G, step_s: f64, clearance_m: f64) -> Vec<Conflict> {
+        guard.explain_anew();
+        let found = self.segments.iter().enumerate().filter_map(|(k, segment)| {
+            let (time_s, obstacle) = segment.conflict(arm, guard, step_s, clearance_m)?;
+            Some(Conflict { flap: self.flap_of(k)?, time_s, obstacle })
+        });
+        found.collect()
+    }
+
+    /// A transit belongs to the flap that it leads to; the last to the one that it comes from.
+    fn flap_of(&self, segment: usize) -> Option<String> {
+        let after = self.segments[segment..].iter().find_map(|later| later.flap.clone());
+        after.or_else(|| self.segments[..segment].iter().rev().find_map(|before| before.flap.clone()))
+    }
+
+    /// Says of flaps that were left open why.
+    pub fn tell_left_open(&mut self, left_open: &[(String, Obstacle)]) {
+        for (name, obstacle) in left_open {
+            if let Some(flap) = self.flaps.iter_mut().find(|flap| flap.name == *name) {
+                flap.status = Status::Blocked.name();
+                flap.reason = Some(format!("between two postures: {obstacle}"));
+            }
+        }
     }
 }
 
@@ -115,7 +156,8 @@ fn segment(piece: &Piece, arm: &Arm, problem: &BoxProblem, settings: &PlanningSe
     let mut now_s = start_s;
     for (first, last) in legs(&piece.positions) {
         let way = &piece.positions[first..=last];
-        let cap = |place: f64| if is_push { speed_cap(piece, &lengths, place, settings).powi(2) } else { f64::INFINITY };
+        let cap =
+            |place: f64| if is_push { speed_cap(piece, &lengths, place, settings).powi(2) } else { f64::INFINITY };
         let Some(leg) = time(way, &bounds, settings.period_s, cap) else { continue };
         segment.add(&leg, now_s, piece, &lengths, (lengths[first], lengths[last]));
         now_s += leg.duration_s();
@@ -143,15 +185,19 @@ impl Segment {
         }
     }
 
-    /// The first moment, of those a step apart, at which the motion comes nearer to anything than `clearance_m`: when, and to what.
-    pub fn conflict<G: Guard>(&self, guard: &G, step_s: f64, clearance_m: f64) -> Option<(f64, super::Obstacle)> {
+    /// The first moment, of those a step apart, at which the motion leaves the joints' limits or comes nearer to anything than
+    /// `clearance_m`: when, and to what.
+    fn conflict<G: Guard>(&self, arm: &Arm, guard: &G, step_s: f64, clearance_m: f64) -> Option<(f64, Obstacle)> {
         for k in 0..self.times.len() - 1 {
             let span_s = self.times[k + 1] - self.times[k];
             let steps = (span_s / step_s).ceil().max(1.0) as usize;
             for step in 0..steps {
                 let share = step as f64 / steps as f64;
                 let positions = self.between(k, share, span_s);
-                if let Some(obstacle) = guard.conflict(&positions, &self.moment(k, share), clearance_m) {
+                let limit = arm.limit_violation(&positions).filter(|&(_, over_rad)| over_rad > ROUNDING_RAD);
+                let beyond = limit.map(|(joint, _)| Obstacle::Limit { joint: arm.joints[joint].name.clone() });
+                let near = || guard.conflict(&positions, &self.moment(k, share), clearance_m);
+                if let Some(obstacle) = beyond.or_else(near) {
                     return Some((self.times[k] + share * span_s, obstacle));
                 }
             }
@@ -176,7 +222,8 @@ impl Segment {
         for j in 0..made.len() {
             let (p, q) = (self.positions[k][j], self.positions[k + 1][j]);
             let (v, w) = (self.velocities[k][j] * span_s, self.velocities[k + 1][j] * span_s);
-            made[j] = p * rest * rest * (1.0 + 2.0 * s) + v * s * rest * rest + q * s * s * (3.0 - 2.0 * s) - w * s * s * rest;
+            made[j] = p * rest * rest * (1.0 + 2.0 * s) + v * s * rest * rest + q * s * s * (3.0 - 2.0 * s)
+                - w * s * s * rest;
         }
         made
     }

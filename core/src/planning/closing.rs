@@ -8,8 +8,8 @@ use super::order;
 use super::planes::PlanesSearch;
 use super::problem::BoxProblem;
 use super::push::{closed_finger, PushMotion, Pusher};
-use super::request::Method;
 use super::reason::{Obstacle, Status, WhyNot};
+use super::request::Method;
 use super::settings::PlanningSettings;
 use super::transit::Transit;
 use crate::arm::{Arm, JointPositions};
@@ -34,8 +34,14 @@ pub struct Piece {
     /// In a push: of each posture the hinge's angle, rad, and the point of touch, base frame.
     pub hinge_rad: Vec<f64>,
     pub contact: Vec<Vec3>,
-    /// Where all flaps are meanwhile, rad; of the pushed flap, where it is before.
+    /// Where all flaps are meanwhile, rad; in a push the pushed one moves.
     pub angles_rad: Vec<f64>,
+}
+
+impl Piece {
+    fn new(kind: Kind, flap: Option<usize>, positions: Vec<JointPositions>, angles_rad: Vec<f64>) -> Self {
+        Self { kind, flap, positions, hinge_rad: Vec::new(), contact: Vec::new(), angles_rad }
+    }
 }
 
 /// What became of a flap.
@@ -90,15 +96,19 @@ pub struct Closer<'a, G: Guard> {
     pub method: Method,
     /// The flaps to close, by name; all that are open where there are none.
     pub only: &'a [String],
+    /// Flaps that are not to be closed.
+    pub left_open: &'a [&'a str],
 }
 
 impl<G: Guard> Closer<'_, G> {
     /// Plans the closing of all flaps that are open and seen, from the arm's posture `start` and back to it.
     pub fn plan(&self, start: &JointPositions) -> Closing {
         let angles_rad: Vec<f64> = self.problem.flaps.iter().map(|flap| flap.position_rad).collect();
-        let mut outcomes: Vec<Option<Outcome>> =
-            (0..angles_rad.len()).map(|flap| self.needs_nothing(flap)).collect();
-        let asked = |flap: usize| self.only.is_empty() || self.only.contains(&self.problem.flaps[flap].name);
+        let mut outcomes: Vec<Option<Outcome>> = (0..angles_rad.len()).map(|flap| self.needs_nothing(flap)).collect();
+        let asked = |flap: usize| {
+            let name = &self.problem.flaps[flap].name;
+            (self.only.is_empty() || self.only.contains(name)) && !self.left_open.contains(&name.as_str())
+        };
         let open: Vec<usize> = (0..outcomes.len()).filter(|&flap| outcomes[flap].is_none() && asked(flap)).collect();
         let ordered = match self.method {
             Method::Layered => order::search(self, &open, &angles_rad),
@@ -140,7 +150,10 @@ impl<G: Guard> Closer<'_, G> {
             }
             Standing::Seen if flap.position_rad < 0.0 => {
                 let degrees = flap.position_rad.to_degrees();
-                outcome(Status::Blocked, format!("is pushed in to {degrees:.0} degrees; a push would go through the board"))
+                outcome(
+                    Status::Blocked,
+                    format!("is pushed in to {degrees:.0} degrees; a push would go through the board"),
+                )
             }
             Standing::Seen => None,
         }
@@ -209,11 +222,17 @@ impl<G: Guard> Way<'_, '_, G> {
             let reason = Obstacle::NoWay { to: "to it" }.to_string();
             return Err(WhyNot { status: Status::Blocked, reason, by_flaps: false });
         };
-        self.add(Kind::Transit, None, transit, Vec::new(), Vec::new());
-        self.add(Kind::Approach, Some(flap), push.approach, Vec::new(), Vec::new());
-        self.add(Kind::Push, Some(flap), push.push, push.hinge_rad, push.contact);
+        let resting = self.angles_rad.clone();
+        let meanwhile = push.meanwhile_rad;
+        let mut held = meanwhile.clone();
+        held[flap] = push.hinge_rad[push.hinge_rad.len() - 1];
+        let pushed = Some(flap);
+        self.add(Piece::new(Kind::Transit, None, transit, resting));
+        self.add(Piece::new(Kind::Approach, pushed, push.approach, meanwhile.clone()));
+        let piece = Piece::new(Kind::Push, pushed, push.push, meanwhile);
+        self.add(Piece { hinge_rad: push.hinge_rad, contact: push.contact, ..piece });
+        self.add(Piece::new(Kind::Retreat, pushed, push.retreat, held));
         self.angles_rad[flap] = self.closer.settings.rest_rad;
-        self.add(Kind::Retreat, Some(flap), push.retreat, Vec::new(), Vec::new());
         self.order.push(flap);
         Ok(())
     }
@@ -224,27 +243,21 @@ impl<G: Guard> Way<'_, '_, G> {
             return;
         }
         if let Some(transit) = self.transit(start, &self.closer.arm.ready.clone()) {
-            self.add(Kind::Transit, None, transit, Vec::new(), Vec::new());
+            self.add(Piece::new(Kind::Transit, None, transit, self.angles_rad.clone()));
         }
     }
 
     fn transit(&self, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
         let moment = Moment::resting(&self.angles_rad);
         let closer = self.closer;
-        Transit { arm: closer.arm, guard: closer.guard, settings: closer.settings, moment: &moment }.way(&self.at, to, via)
+        Transit { arm: closer.arm, guard: closer.guard, settings: closer.settings, moment: &moment }
+            .way(&self.at, to, via)
     }
 
-    fn add(
-        &mut self,
-        kind: Kind,
-        flap: Option<usize>,
-        positions: Vec<JointPositions>,
-        hinge_rad: Vec<f64>,
-        contact: Vec<Vec3>,
-    ) {
-        if let Some(last) = positions.last() {
+    fn add(&mut self, piece: Piece) {
+        if let Some(last) = piece.positions.last() {
             self.at = *last;
         }
-        self.pieces.push(Piece { kind, flap, positions, hinge_rad, contact, angles_rad: self.angles_rad.clone() });
+        self.pieces.push(piece);
     }
 }

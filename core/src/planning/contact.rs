@@ -64,7 +64,7 @@ impl<'a> Contacts<'a> {
         }
         let touch = self.finger.touch(&self.flap.outline, self.half_board_m, at, &turned)?;
         let lever = touch.contact[1] / self.flap.length_m();
-        let tool = Vec3::new(at[0], at[1], touch.tool_outward_m);
+        let tool = Vec3::new(at[0], at[1], touch.tool_outward_m + self.settings.touch_gap_m);
         let contact = Vec3::new(touch.contact[0], touch.contact[1], self.half_board_m);
         let from_tip_m = (tool - contact).dot(&turned.column(2));
         let hooks = into_face < 0.0;
@@ -73,7 +73,7 @@ impl<'a> Contacts<'a> {
             return None;
         }
         let aside = (touch.contact[0] / self.flap.hinge_length_m() - 0.5).abs();
-        let penalty = (1.0 - lever).max(0.0) + 0.6 * aside + (0.7 - into_face).max(0.0).powi(2);
+        let penalty = (1.0 - lever).max(0.0) + 0.6 * aside + (0.7 - into_face).max(0.0).powi(2) + (-into_face).max(0.0);
         Some(Grip {
             base_from_tool: Rigid::new(rotation, frame.at(tool.x, tool.y, tool.z)),
             contact: frame.at(contact.x, contact.y, contact.z),

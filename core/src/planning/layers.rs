@@ -235,12 +235,8 @@ impl<G: Guard> Layers<'_, G> {
 
     fn places_beside(&self, [along, away]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
         let size = [self.contacts.along_m.len(), self.contacts.away_m.len()];
-        let beside = [
-            [along.wrapping_sub(1), away],
-            [along + 1, away],
-            [along, away.wrapping_sub(1)],
-            [along, away + 1],
-        ];
+        let beside =
+            [[along.wrapping_sub(1), away], [along + 1, away], [along, away.wrapping_sub(1)], [along, away + 1]];
         beside.into_iter().filter(move |place| place[0] < size[0] && place[1] < size[1])
     }
 
@@ -260,13 +256,14 @@ impl<G: Guard> Layers<'_, G> {
         let frame = self.contacts.flap.frame(self.angles_rad[layer]);
         let grip = self.contacts.grip(&frame, self.place_m(place), &self.contacts.rotation(orientation));
         let moment = &self.moments[layer];
-        let clear = grip.filter(|grip| match self.guard.tool_conflict(&grip.base_from_tool, moment, self.clearance_m()) {
-            Some(obstacle) => {
-                tally.add(obstacle);
-                false
-            }
-            None => true,
-        });
+        let clear =
+            grip.filter(|grip| match self.guard.tool_conflict(&grip.base_from_tool, moment, self.clearance_m()) {
+                Some(obstacle) => {
+                    tally.add(obstacle);
+                    false
+                }
+                None => true,
+            });
         let reached = clear.map(|grip| {
             let solutions = match near {
                 Some(near) => self.arm.inverse_near(&grip.base_from_tool, near),

@@ -24,7 +24,7 @@ mod timing;
 mod touch;
 mod transit;
 
-pub use answer::{Answer, FlapAnswer, Segment};
+pub use answer::{Answer, Conflict, FlapAnswer, Segment};
 pub use boards::quads_cross;
 pub use closing::{Closer, Closing, Kind, Outcome, Piece};
 pub use contact::{Contacts, Grip};
@@ -35,6 +35,6 @@ pub use push::{closed_finger, PushMotion, Pusher};
 pub use reason::{Obstacle, Status, WhyNot};
 pub use request::{Method, Request, SceneBox};
 pub use settings::PlanningSettings;
-pub use touch::Finger;
 pub use surroundings::Surroundings;
 pub use timing::{time, Bounds, Timed};
+pub use touch::Finger;

@@ -22,7 +22,14 @@ type Tried = Result<PushMotion, WhyNot>;
 /// Depth first over orders, the likeliest first, each push planned once for each set of flaps closed before it. The first order that
 /// closes all ends the search; else the first of those that close most.
 pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
-    let mut search = Search { closer, known: HashMap::new(), best: Vec::new(), wanted: open.len(), seconds: vec![0.0; angles_rad.len()], hopeless: Vec::new() };
+    let mut search = Search {
+        closer,
+        known: HashMap::new(),
+        best: Vec::new(),
+        wanted: open.len(),
+        seconds: vec![0.0; angles_rad.len()],
+        hopeless: Vec::new(),
+    };
     let ranked = likeliest_first(closer, open);
     search.extend(&mut Vec::new(), &ranked, angles_rad);
     let best = search.best.clone();
@@ -33,9 +40,7 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
         }
     }
     let left = ranked.iter().filter(|flap| !best.contains(flap));
-    let why_not = left
-        .filter_map(|&flap| Some((flap, search.why_not(flap, &best)?)))
-        .collect();
+    let why_not = left.filter_map(|&flap| Some((flap, search.why_not(flap, &best)?))).collect();
     Ordered { order: best, pushes, why_not, seconds: search.seconds }
 }
 
@@ -45,7 +50,8 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
     let area = |flap: usize| closer.problem.flaps[flap].area_m2();
     ranked.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
     let mut angles_rad = angles_rad.to_vec();
-    let mut found = Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new(), seconds: vec![0.0; angles_rad.len()] };
+    let mut found =
+        Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new(), seconds: vec![0.0; angles_rad.len()] };
     for flap in ranked {
         let started = Instant::now();
         match closer.push(flap, &Moment::resting(&angles_rad)) {

@@ -187,6 +187,7 @@ impl<G: Guard> PlanesSearch<'_, '_, G> {
             contact: rows.iter().map(|row| row.2).collect(),
             push: rows.into_iter().map(|row| row.1).collect(),
             retreat,
+            meanwhile_rad: pressed.angles_rad,
         })
     }
 }

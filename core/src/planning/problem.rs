@@ -111,8 +111,11 @@ impl MeasuredFlap {
             position_rad: self.position_rad,
         };
         let frame = flap.frame(flap.position_rad);
-        flap.tucks =
-            self.tucks.into_iter().map(|board| (board.name, board.corners.map(|p| frame.coordinates(&p.into())))).collect();
+        flap.tucks = self
+            .tucks
+            .into_iter()
+            .map(|board| (board.name, board.corners.map(|p| frame.coordinates(&p.into()))))
+            .collect();
         Ok(flap)
     }
 

@@ -22,6 +22,8 @@ pub struct PushMotion {
     pub hinge_rad: Vec<f64>,
     pub contact: Vec<Vec3>,
     pub retreat: Vec<JointPositions>,
+    /// Where all flaps are meanwhile, rad: those that are closed give way.
+    pub meanwhile_rad: Vec<f64>,
 }
 
 /// Plans the push of one flap.
@@ -86,7 +88,11 @@ impl<G: Guard> Pusher<'_, G> {
                 }
             }
         }
-        Err(why.unwrap_or(WhyNot { status: Status::OutOfTime, reason: "no search was allowed".into(), by_flaps: false }))
+        Err(why.unwrap_or(WhyNot {
+            status: Status::OutOfTime,
+            reason: "no search was allowed".into(),
+            by_flaps: false,
+        }))
     }
 
     /// Where the flaps are during the push: those that are closed already give way to the one that comes to lie on them.
@@ -109,10 +115,8 @@ impl<G: Guard> Pusher<'_, G> {
         first: (&Moment, &Moment),
         last: (&Moment, &Moment),
     ) -> Result<PushMotion, Obstacle> {
-        let knots: Vec<([f64; 2], UnitQuaternion<f64>)> = path
-            .iter()
-            .map(|state| (layers.place_m(state.place), self.contacts.rotation(state.orientation)))
-            .collect();
+        let knots: Vec<([f64; 2], UnitQuaternion<f64>)> =
+            path.iter().map(|state| (layers.place_m(state.place), self.contacts.rotation(state.orientation))).collect();
         let sampled = self.sampled(layers, &knots, path[0].positions, smooth);
         let mut motion = sampled.or_else(|_| self.sampled(layers, &knots, path[0].positions, straight))?;
         let grip_at = |angle_rad: f64, knot: &([f64; 2], UnitQuaternion<f64>)| {
@@ -144,6 +148,7 @@ impl<G: Guard> Pusher<'_, G> {
             hinge_rad: Vec::new(),
             contact: Vec::new(),
             retreat: Vec::new(),
+            meanwhile_rad: layers.moment.angles_rad.clone(),
         };
         let mut last = start;
         for step in 0..=steps {
@@ -208,10 +213,7 @@ pub fn layers_between(from_rad: f64, to_rad: f64, step_rad: f64) -> Vec<f64> {
     (0..=count).map(|k| from_rad + (to_rad - from_rad) * k as f64 / count as f64).collect()
 }
 
-fn mixed(
-    knots: &[([f64; 2], UnitQuaternion<f64>)],
-    weights: &[(usize, f64)],
-) -> ([f64; 2], UnitQuaternion<f64>) {
+fn mixed(knots: &[([f64; 2], UnitQuaternion<f64>)], weights: &[(usize, f64)]) -> ([f64; 2], UnitQuaternion<f64>) {
     let at = weights.iter().fold([0.0; 2], |at, &(k, w)| [at[0] + w * knots[k].0[0], at[1] + w * knots[k].0[1]]);
     let rotations: Vec<_> = weights.iter().map(|&(k, w)| (knots[k].1, w)).collect();
     (at, blend(&rotations))

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use super::answer::{timed, Answer};
 use super::closing::Closer;
 use super::problem::MeasuredBox;
+use super::reason::Obstacle;
 use super::settings::PlanningSettings;
 use super::surroundings::Surroundings;
 use crate::arm::Arm;
@@ -21,6 +22,10 @@ pub struct SceneBox {
     pub rotation: [[f64; 3]; 3],
     pub size_m: [f64; 3],
 }
+
+/// How often a plan is made again with a wider margin, where its motion came too near to something between two postures, before the
+/// flap is left open.
+const WIDER: i32 = 2;
 
 /// What is to be closed, amid what, and how.
 #[derive(Debug, Clone, Deserialize)]
@@ -72,9 +77,33 @@ impl Request {
         let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
         let guard = Surroundings::new(arm, &problem, scene);
         guard.check_base()?;
-        let closer = Closer { arm, guard: &guard, problem: &problem, settings, method: self.method, only: &self.only };
-        let closing = closer.plan(&arm.ready);
-        Ok(timed(&closing, arm, &problem, settings))
+        let mut left_open: Vec<(String, Obstacle)> = Vec::new();
+        for attempt in 0.. {
+            let mut settings = settings.clone();
+            settings.search_margin_m *= f64::from(attempt.min(WIDER) + 1);
+            let left: Vec<&str> = left_open.iter().map(|(name, _)| name.as_str()).collect();
+            let closer = Closer {
+                arm,
+                guard: &guard,
+                problem: &problem,
+                settings: &settings,
+                method: self.method,
+                only: &self.only,
+                left_open: &left,
+            };
+            let mut answer = timed(&closer.plan(&arm.ready), arm, &problem, &settings);
+            let conflicts = answer.conflicts(arm, &guard, settings.check_s, settings.clearance_m);
+            if conflicts.is_empty() {
+                answer.tell_left_open(&left_open);
+                return Ok(answer);
+            }
+            if attempt >= WIDER {
+                left_open.extend(conflicts.into_iter().map(|conflict| (conflict.flap, conflict.obstacle)));
+                left_open.sort();
+                left_open.dedup_by(|a, b| a.0 == b.0);
+            }
+        }
+        unreachable!("every attempt leaves one more flap open, and without flaps there is no motion")
     }
 }
 

@@ -27,11 +27,13 @@ pub struct PlanningSettings {
     /// Between contacts along and across a flap, and how many of them at most.
     pub contact_step_m: f64,
     pub most_contacts: [usize; 2],
-    /// Tool points keep this from the flap's lateral ends, reach this far beyond its free edge, and keep this share of its length from
+    /// Tool points keep this from the flap's lateral ends, reach this far beyond its free edge (short of it where below 0), and keep this share of its length from
     /// the hinge.
     pub contact_inset_m: f64,
     pub contact_beyond_m: f64,
     pub least_lever: f64,
+    /// The finger is planned this far off the face, so that it is not in the board between two samples.
+    pub touch_gap_m: f64,
     /// How far the tool's axis may lean back over the flap's edge, as the sine.
     pub most_lean: f64,
     /// From the tip to where a hooked edge may lie on the finger, at the least.
@@ -56,8 +58,9 @@ pub struct PlanningSettings {
     /// How fast a flap is turned, and how fast the point of touch moves, at most.
     pub hinge_rad_per_s: f64,
     pub contact_m_per_s: f64,
-    /// Between two samples of the motion.
+    /// Between two samples of the motion, and between two moments at which the whole of it is checked again.
     pub period_s: f64,
+    pub check_s: f64,
 }
 
 impl Default for PlanningSettings {
@@ -67,7 +70,7 @@ impl Default for PlanningSettings {
             search_margin_m: 0.0015,
             closed_rad: 15f64.to_radians(),
             overclose_rad: 9f64.to_radians(),
-            overclose_on_others_rad: 5f64.to_radians(),
+            overclose_on_others_rad: 1.5f64.to_radians(),
             rest_rad: 4f64.to_radians(),
             under_rad: 4f64.to_radians(),
             layer_rad: 8f64.to_radians(),
@@ -76,10 +79,11 @@ impl Default for PlanningSettings {
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,
-            contact_beyond_m: 0.005,
+            contact_beyond_m: -0.006,
             least_lever: 0.35,
-            most_lean: 0.8,
-            least_hook_m: 0.010,
+            touch_gap_m: 0.0003,
+            most_lean: 0.6,
+            least_hook_m: 0.018,
             most_turn_rad: 0.9,
             most_sample_turn_rad: 0.25,
             stand_off_m: 0.015,
@@ -92,8 +96,9 @@ impl Default for PlanningSettings {
             free_share: 0.8,
             contact_share: 0.4,
             hinge_rad_per_s: 1.0,
-            contact_m_per_s: 0.25,
+            contact_m_per_s: 0.2,
             period_s: 0.01,
+            check_s: 0.005,
         }
     }
 }

@@ -79,7 +79,8 @@ impl<'a> Surroundings<'a> {
         let Some(nearest) = nearest else { return Ok(()) };
         let (body, other) = (self.arm.body_name(nearest.body), checker.other_name(nearest.other));
         let problem = format!("the arm's {body} stands inside {other} before it has moved");
-        Err(InputError::new(problem).mend("base_from_input must put box and support clear of the arm's base and ready pose"))
+        Err(InputError::new(problem)
+            .mend("base_from_input must put box and support clear of the arm's base and ready pose"))
     }
 
     /// Puts the flaps where they are at a moment.
@@ -89,7 +90,8 @@ impl<'a> Surroundings<'a> {
             if self.boards[k].is_empty() || state.at.as_ref().is_some_and(|at| at[k] == angle_rad) {
                 continue;
             }
-            let corners = std::iter::once(flap.corners(angle_rad)).chain(flap.tuck_corners(angle_rad).map(|tuck| tuck.1));
+            let corners =
+                std::iter::once(flap.corners(angle_rad)).chain(flap.tuck_corners(angle_rad).map(|tuck| tuck.1));
             for (corners, &index) in corners.zip(&self.boards[k]) {
                 if let Some(solid) = OrientedBox::of_panel(&corners, self.problem.thickness_m) {
                     state.world.replace(index, Solid::Box(solid));
@@ -135,7 +137,8 @@ fn add_flap(world: &mut World, problem: &BoxProblem, flap: usize) -> Vec<usize> 
     }
     let tucks = flap.tuck_corners(flap.position_rad);
     let boards = std::iter::once((flap.name.as_str(), flap.corners(flap.position_rad))).chain(tucks);
-    let solids = boards.filter_map(|(name, corners)| Some((name, OrientedBox::of_panel(&corners, problem.thickness_m)?)));
+    let solids =
+        boards.filter_map(|(name, corners)| Some((name, OrientedBox::of_panel(&corners, problem.thickness_m)?)));
     solids.map(|(name, solid)| world.add(name, Solid::Box(solid))).collect()
 }
 
@@ -169,10 +172,15 @@ impl Guard for Surroundings<'_> {
             let radius_m = half_m.norm();
             for (k, obstacle) in state.world.obstacles().iter().enumerate() {
                 let far = match &obstacle.solid {
-                    Solid::Box(thing) => thing.distance_to_point_m(&piece.centre()) - radius_m >= clearance_m,
+                    Solid::Box(thing) => {
+                        thing.distance_to_point_sq_m2(&piece.centre()) >= (radius_m + clearance_m).powi(2)
+                    }
                     _ => false,
                 };
-                if far || (*is_finger && touched == Some(&k)) || clear_by(&Solid::Box(piece), &obstacle.solid, clearance_m) {
+                if far
+                    || (*is_finger && touched == Some(&k))
+                    || clear_by(&Solid::Box(piece), &obstacle.solid, clearance_m)
+                {
                     continue;
                 }
                 let body = if *is_finger { self.arm.fingers_body() } else { self.arm.gripper_body() };

@@ -162,7 +162,8 @@ impl Tree {
     }
 
     fn nearest(&self, to: &JointPositions) -> usize {
-        let far_sq = |posture: &JointPositions| posture.iter().zip(to.iter()).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+        let far_sq =
+            |posture: &JointPositions| posture.iter().zip(to.iter()).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
         let all = self.nodes.iter().enumerate().map(|(k, (posture, _))| (far_sq(posture), k));
         all.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |(_, k)| k)
     }

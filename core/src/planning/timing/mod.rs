@@ -24,12 +24,7 @@ const CHECK_S: f64 = 0.001;
 
 /// Times a way from rest to rest with a sample every `period_s`. `cap_sq` bounds the squared path speed (widest turns, rad/s) at a
 /// place. None where nothing moves.
-pub fn time(
-    way: &[JointPositions],
-    bounds: &[Bounds],
-    period_s: f64,
-    cap_sq: impl Fn(f64) -> f64,
-) -> Option<Timed> {
+pub fn time(way: &[JointPositions], bounds: &[Bounds], period_s: f64, cap_sq: impl Fn(f64) -> f64) -> Option<Timed> {
     let spline = Spline::through(way)?;
     let profile = fastest(&spline, bounds, cap_sq);
     let mut timed = sampled(&spline, &profile, period_s);
@@ -48,7 +43,8 @@ fn sampled(spline: &Spline, profile: &Profile, period_s: f64) -> Timed {
         while k + 2 < moments.len() && moments[k + 1] < time_s {
             k += 1;
         }
-        let (place, speed) = if sample == count { (spline.length(), 0.0) } else { within(profile, &moments, k, time_s) };
+        let (place, speed) =
+            if sample == count { (spline.length(), 0.0) } else { within(profile, &moments, k, time_s) };
         let [value, mut slope, _] = spline.at(place);
         slope.iter_mut().for_each(|joint| *joint *= speed);
         timed.times_s.push(time_s);
@@ -151,7 +147,10 @@ mod tests {
         assert!(timed.worst_ratio(&BOUNDS) <= 1.0);
         assert_eq!(timed.positions[0], way[0]);
         assert_eq!(timed.positions[timed.positions.len() - 1], way[59]);
-        assert!(timed.velocities[0].iter().chain(timed.velocities[timed.velocities.len() - 1].iter()).all(|v| *v == 0.0));
+        assert!(timed.velocities[0]
+            .iter()
+            .chain(timed.velocities[timed.velocities.len() - 1].iter())
+            .all(|v| *v == 0.0));
     }
 
     #[test]

@@ -62,8 +62,8 @@ impl Spline {
             let (c, d) = (self.curvatures[k][j], self.curvatures[k + 1][j]);
             let sixth = width * width / 6.0;
             found[0][j] = rest * p + after * q + sixth * ((rest.powi(3) - rest) * c + (after.powi(3) - after) * d);
-            found[1][j] = (q - p) / width
-                + width / 6.0 * ((1.0 - 3.0 * rest * rest) * c + (3.0 * after * after - 1.0) * d);
+            found[1][j] =
+                (q - p) / width + width / 6.0 * ((1.0 - 3.0 * rest * rest) * c + (3.0 * after * after - 1.0) * d);
             found[2][j] = rest * c + after * d;
         }
         found
