@@ -4,22 +4,31 @@ from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, Par
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
+from boxwright.types.robot import Gripper, Opw, Place, RobotBox, RobotCapsule, RobotFile, RobotJoint, RobotLink
 from boxwright.types.segments import Segment, Segmentation
 from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
 
 __all__ = [
     "Camera",
     "Cloud",
+    "Gripper",
     "Inference",
     "Intrinsics",
     "Joint",
     "JointSigma",
     "Model",
     "Object",
+    "Opw",
     "Parameter",
     "Part",
     "PartState",
+    "Place",
     "Pose",
+    "RobotBox",
+    "RobotCapsule",
+    "RobotFile",
+    "RobotJoint",
+    "RobotLink",
     "ScoreTerm",
     "Seconds",
     "Segment",
