@@ -2,7 +2,9 @@
 
 use pyo3::prelude::*;
 
+mod arm;
 mod cloud;
+mod collision;
 mod convert;
 mod model;
 mod perception;
@@ -13,6 +15,8 @@ mod sensor;
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     cloud::register(m)?;
+    arm::register(m)?;
+    collision::register(m)?;
     perception::register(m)?;
     model::register(m)?;
     planning::register(m)?;

@@ -173,6 +173,7 @@ fn refusals_name_the_key() {
         ("signs = [1, 1, 1, 1, 1, 1]", "signs = [1, 1, 1, 1, 1, 2]", "opw: signs are"),
         ("[\"link_4\", \"link_6\"]", "[\"link_4\", \"link_9\"]", "may_touch: no link link_9; links are base, link_1"),
         ("ready_deg = [0.0", "ready_deg = [180.0", "ready_deg: joint_1 at 180 is outside its limits"),
+        ("name = \"viper_s850\"", "name = \"viper s850\"", "name: is \"viper s850\""),
         ("name = \"link_1\"", "name = \"base\"", "link base: the name is taken"),
         ("limits_deg = [-190.0, 190.0]", "limits_deg = [-360.0, 360.0]", "be reached in 72 ways"),
     ];
@@ -183,5 +184,5 @@ fn refusals_name_the_key() {
         assert!(error.contains(expected), "{error}");
         assert!(!error.contains('\n'), "{error}");
     }
-    assert_eq!(cases.len(), 9);
+    assert_eq!(cases.len(), 10);
 }

@@ -14,7 +14,7 @@ LAYERS = (
     ("types", "parallel", "_core"),
     ("io",),
     ("perception", "models", "kinematics"),
-    ("evaluation",),
+    ("evaluation", "robots"),
     ("learning",),
     ("segmentation",),
     ("pipeline",),
