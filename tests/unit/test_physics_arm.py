@@ -21,9 +21,11 @@ def arm() -> Arm:
     return Arm(load_robot("viper_s850"))
 
 
+BOX = true_box(truth_of(carton(), x_m=0.9, z_m=-0.3), 0, np.eye(4))
+
+
 def beside_a_box(arm: Arm, start: np.ndarray, opening_m: float = 0.0) -> World:
-    box = true_box(truth_of(carton(), x_m=0.9, z_m=-0.3), 0, np.eye(4))
-    return build_world(box, crease_class("ordinary"), PhysicsSettings(), tool=(arm, start, opening_m))
+    return build_world(BOX, crease_class("ordinary"), PhysicsSettings(), tool=(arm, start, opening_m))
 
 
 def test_the_flange_is_where_the_data_sheet_s_lengths_put_it(arm: Arm) -> None:
@@ -54,7 +56,7 @@ def test_the_flange_is_where_the_data_sheet_s_lengths_put_it(arm: Arm) -> None:
 def test_fingers_open_as_far_as_told_and_reach_the_tool_point(arm: Arm) -> None:
     start = np.radians(arm.robot.ready_deg)
     world = beside_a_box(arm, start, 0.05)
-    stage = Stage(world)
+    stage = Stage(world, BOX)
     stage.follow(held(start, 0.2, 0.001), 0.05)
     left, right = (stage.data.body(name).xpos for name in ("finger_left", "finger_right"))
     assert np.linalg.norm(left - right) == pytest.approx(0.05 + 0.01, abs=1e-4)
@@ -77,7 +79,7 @@ def test_joints_follow_a_quick_course_within_a_sixth_of_a_degree(arm: Arm) -> No
         velocities=tuple(map(tuple, velocities.tolist())),
         gripper_opening_m=0.0,
     )
-    stage = Stage(beside_a_box(arm, start))
+    stage = Stage(beside_a_box(arm, start), BOX)
     stage.follow(course_of(segment, 0.001))
     assert np.degrees(stage.max_joint_error_rad) < 1 / 6
     assert not stage.watch.unwanted()

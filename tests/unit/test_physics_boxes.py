@@ -14,11 +14,11 @@ from boxwright.simulation.clearance import free_flaps
 from boxwright.simulation.kinds import draw_box
 from boxwright.simulation.panels import build_panels
 from boxwright.simulation.physics import Load, PhysicsSettings, crease_class, load_creases, modelled_box, true_box
+from boxwright.simulation.physics.commands import held
 from boxwright.simulation.physics.matching import matched, renumbered
 from boxwright.simulation.physics.moved import box_as_it_stands
 from boxwright.simulation.physics.slabs import slabs_of
-from boxwright.simulation.physics.state import standing_state
-from boxwright.simulation.physics.watch import Watch
+from boxwright.simulation.physics.stage import Stage
 from boxwright.simulation.physics.world import build_world
 from support.random_models import panels, random_angles, random_object, random_spec
 from support.true_boxes import carton, truth_of
@@ -46,16 +46,13 @@ def test_an_untouched_box_stands_still_and_keeps_its_flaps() -> None:
     flaps = 0
     for box in drawn_boxes(3):
         told = true_box(truth_of(box), 0, np.eye(4))
-        world = build_world(told, crease_class("pre_broken"), PhysicsSettings())
-        data = standing_state(world)
-        before, watch = data.qpos.copy(), Watch(world)
-        for _ in range(500):
-            mujoco.mj_step(world.model, data)
-            watch.note(data, frozenset())
+        stage = Stage(build_world(told, crease_class("pre_broken"), PhysicsSettings()), told)
+        data, before = stage.data, stage.data.qpos.copy()
+        stage.follow(held(np.zeros(0), 0.5, 0.001))
         flaps += len(data.qpos) - 7
         assert np.abs(data.qpos[:3] - before[:3]).max() < 0.0005
         assert np.degrees(np.abs(data.qpos[7:] - before[7:]).max(initial=0.0)) < 0.5
-        assert watch.max_penetration_m < 0.0002
+        assert stage.watch.max_penetration_m < 0.0002
     assert flaps > 40
 
 

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from boxwright.simulation.physics.boards import Board, BoardBox, Hinge
 from boxwright.simulation.physics.creases import Crease
 from boxwright.simulation.physics.settings import PhysicsSettings
-from boxwright.simulation.physics.slabs import Slab, Trim, area_m2, panel_axes, sheet_trim, slabs_of
+from boxwright.simulation.physics.sheets import Sheet, Touches, sheets_of
+from boxwright.simulation.physics.slabs import Slab, Trim, area_m2, panel_axes, slabs_of
 from boxwright.simulation.poses import apply, inverse
 
 Array = NDArray[np.float64]
@@ -29,21 +30,9 @@ CONTENTS_SHARE = 0.5
 """Contents fill this much of the height, as a block that nothing touches."""
 
 
-class Touches(msgspec.Struct, frozen=True):
-    """MuJoCo's two masks: two geoms touch where one's kind is among what the other meets."""
-
-    kind: int
-    meets: int
-
-    def as_geom(self) -> dict[str, int]:
-        """As a geom's attributes."""
-        return {"contype": self.kind, "conaffinity": self.meets}
-
-
 SOLID = Touches(1, 1)
 FLAP = Touches(2, 1)
-SHEET = Touches(4, 4)
-"""Flaps meet all that is solid as the boards that they are, and one another as sheets."""
+"""Flaps meet all that is solid as the boards that they are, and one another as sheets (sheets.py)."""
 
 
 class BoxNames(msgspec.Struct, frozen=True):
@@ -81,6 +70,8 @@ def add_box(
     for board, hinge in box.hinged:
         if free:
             joints[board.name] = _add_hinge(bodies[board.name], prefix + board.name, board, hinge, crease, settings)
+            for sheet in sheets_of(box, board, settings):
+                _add_sheet(bodies[board.name], board, sheet, settings, prefix)
         spec.add_exclude(bodyname1=prefix + hinge.parent, bodyname2=prefix + board.name)
     if contents_kg > 0.0:
         _add_contents(root, box, contents_kg, prefix)
@@ -114,17 +105,7 @@ def _add_board(
         share = 4.0 * slab.half_m[0] * slab.half_m[1] / total_m2
         rgba, touches = (BOARD_RGBA, SOLID) if board.hinge is None else (FLAP_RGBA, FLAP)
         _add_slab(body, world_from_board, slab, share * _mass_kg(board, settings), touches, settings, rgba)
-    for slab in _sheets(board, box, settings):
-        _add_slab(body, world_from_board, slab, 0.0, SHEET, settings, FLAP_RGBA)
     return body
-
-
-def _sheets(board: Board, box: BoardBox, settings: PhysicsSettings) -> list[Slab]:
-    """What flaps meet other flaps with (`PhysicsSettings.sheet_m`)."""
-    if board.hinge is None:
-        return []
-    trim = sheet_trim(board.corners, settings.sheet_near_m, settings.sheet_ends_m)
-    return slabs_of(board.corners, min(settings.sheet_m, box.thickness_m), trim)
 
 
 def _trim(board: Board, box: BoardBox) -> Trim:
@@ -161,9 +142,21 @@ def _add_slab(
         size=slab.half_m,
         mass=mass_kg,
         rgba=rgba,
-        group=HIDDEN_GROUP if touches is SHEET else 0,
         **touches.as_geom(),
         **contact_of(settings, settings.friction_board),
+    )
+
+
+def _add_sheet(body: mujoco.MjsBody, board: Board, sheet: Sheet, settings: PhysicsSettings, prefix: str) -> None:
+    body.add_geom(
+        name=f"{prefix}{board.name}_{sheet.name}",
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        pos=apply(inverse(board_frame(board)), sheet.slab.centre),
+        size=sheet.slab.half_m,
+        mass=0.0,
+        group=HIDDEN_GROUP,
+        **sheet.touches.as_geom(),
+        **contact_of(settings, settings.sheet_friction),
     )
 
 
@@ -183,6 +176,8 @@ def _add_hinge(
 ) -> str:
     """The body stands where the board was measured, which is the joint's measured position."""
     board_from_world = inverse(board_frame(board))
+    reach_m = float(np.linalg.norm(board.corners[2:].mean(axis=0) - hinge.origin))
+    stiffness = crease.stiffness_n_m_per_rad(hinge.length_m)
     low, high = TUCK_RANGE_RAD if board.name.startswith("tuck") else FLAP_RANGE_RAD
     body.add_joint(
         name=name,
@@ -192,8 +187,9 @@ def _add_hinge(
         ref=hinge.position_rad,
         limited=mujoco.mjtLimited.mjLIMITED_TRUE,
         range=[min(low, hinge.position_rad), max(high, hinge.position_rad)],
-        damping=settings.hinge_damping_n_m_s_per_m * hinge.length_m,
-        stiffness=crease.stiffness_n_m_per_rad(hinge.length_m),
+        armature=settings.edge_kg * reach_m**2,
+        damping=settings.crease_relaxation_s * stiffness,
+        stiffness=stiffness,
         springref=hinge.position_rad,
         springyield=crease.return_rad,
     )

@@ -77,7 +77,7 @@ class Session:
         world = build_world(
             box, crease, self.settings, others=others, tool=(tool, start, opening_m), contents_kg=self._contents_kg
         )
-        self.stage = Stage(world, stills_per_s)
+        self.stage = Stage(world, box, stills_per_s)
         self._place, self._opening_m = start, opening_m
         self._seen: dict[str, _Seen] = {}
         self.warnings: list[str] = []

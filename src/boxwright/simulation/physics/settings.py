@@ -28,13 +28,15 @@ class PhysicsSettings(msgspec.Struct, frozen=True, kw_only=True):
     contents_kg_per_m3: float = 100.0
     """What fills a box that is not empty weighs this for its volume: a pizza half a kilogram, a large carton ten."""
     sheet_m: float = 0.002
-    sheet_near_m: float = 0.02
     sheet_ends_m: float = 0.015
-    """Flaps meet other flaps as sheets this thick at mid-board, without what is this near to their hinge and this near
-    to their ends. Real flaps give way there: the outer ones' score lines lie a board higher, creases are crushed, board
-    bends and the rim bulges. Stiff boards on hinges of one height jam in corners where cartons do not."""
-    hinge_damping_n_m_s_per_m: float = 0.002
-    """Air and fibres take energy from a flap that swings: per metre of crease, N m s/rad."""
+    sheet_friction: float = 0.3
+    """Flaps meet other flaps as sheets this thick (box_bodies.py): inner flaps without what is this near to their ends,
+    where board bends and rims bulge in a real box; stiff boards jam in corners where cartons do not."""
+    crease_relaxation_s: float = 0.01
+    """Fibres take energy from a flap that swings: the crease's damping is its stiffness times this."""
+    edge_kg: float = 0.02
+    """Flaps are as slow as if this sat on their free edge, and not heavier: boards of a few grams between a crease and
+    a contact, both stiff, would chatter. A flap that turns by 1 rad/s at 0.2 m takes 0.4 mJ of it."""
     gravity_m_per_s2: float = 9.80665
     settle_s: float = 0.5
     """Before the arm moves, everything comes to rest; flaps are measured then."""

@@ -33,14 +33,6 @@ class Trim(msgspec.Struct, frozen=True, kw_only=True):
     ends_m: float = 0.0
 
 
-def sheet_trim(corners: Array, near_m: float, ends_m: float) -> Trim:
-    """A trim that leaves three quarters of a short panel, and half of a narrow one."""
-    axes = panel_axes(corners)
-    depth_m = float((corners[2:].mean(axis=0) - corners[:2].mean(axis=0)) @ axes[:, 1])
-    narrowest_m = float(min(np.linalg.norm(corners[1] - corners[0]), np.linalg.norm(corners[2] - corners[3])))
-    return Trim(near_m=min(near_m, depth_m / 4.0), ends_m=min(ends_m, narrowest_m / 4.0))
-
-
 def panel_axes(corners: Array) -> Array:
     """Columns: x along the first edge, y in the panel towards the far edge, z = x cross y; corners (4, 3)."""
     x = (corners[1] - corners[0]) / np.linalg.norm(corners[1] - corners[0])

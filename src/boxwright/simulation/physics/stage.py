@@ -7,12 +7,17 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from boxwright.simulation.physics.boards import BoardBox
 from boxwright.simulation.physics.commands import Course
+from boxwright.simulation.physics.layers import Layers
 from boxwright.simulation.physics.state import standing_state
 from boxwright.simulation.physics.watch import Watch
 from boxwright.simulation.physics.world import Tool, World
 
 Array = NDArray[np.float64]
+
+LAYERS_S = 0.01
+"""How often it is looked at which flaps have come down: none gets far in this time."""
 
 NOTHING: frozenset[int] = frozenset()
 
@@ -28,10 +33,12 @@ class Film(msgspec.Struct, frozen=True, eq=False):
 class Stage:
     """Mutable: `data` is the state now, `watch` the worst until now, `film` a still every so often."""
 
-    def __init__(self, world: World, stills_per_s: float = 0.0) -> None:
+    def __init__(self, world: World, box: BoardBox, stills_per_s: float = 0.0) -> None:
         self.world = world
         self.data = standing_state(world)
         self.watch = Watch(world)
+        self._layers = Layers(world, box, self.data)
+        self._layers_every = max(1, round(LAYERS_S / world.settings.time_step_s))
         self.film = Film([], [], [])
         self.caption = ""
         self.max_joint_error_rad = 0.0
@@ -58,6 +65,8 @@ class Stage:
             if commands is not None:
                 data.ctrl[:] = commands[k]
                 followed[k] = data.qpos[self._joints]
+            if k % self._layers_every == 0:
+                self._layers.update(data)
             mujoco.mj_step(model, data)
             watch.note(data, allowed)
             if flap_at is not None:
