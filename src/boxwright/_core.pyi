@@ -405,3 +405,14 @@ class Clearance:
 
 def plan_closing(robot: str, request: str) -> str:
     """The text of a robot's file and a request as JSON (`core::planning::Request`); the motion as JSON."""
+
+def feasible_flaps(robot: str, request: str) -> list[tuple[str, bool]]:
+    """For each open flap, by name: can brute force close it by itself, all others as they are? Takes minutes."""
+
+def time_way(
+    way: NDArray[np.float64], speeds: list[float], accelerations: list[float], period_s: float
+) -> tuple[list[float], list[list[float]], list[list[float]]]:
+    """The fastest motion from rest to rest along postures (N, axes), rad: times (M,) s, positions, velocities (M, axes).
+
+    Raises ValueError where shapes do not fit or nothing moves.
+    """

@@ -14,7 +14,7 @@ pub struct Grip {
     pub base_from_tool: Rigid,
     /// The point of touch, base frame.
     pub contact: Vec3,
-    /// 0 for a push on the middle of the free edge, square to the face; grows as the lever shortens and the tool leans.
+    /// Eq. 85: 0 for a push on the middle of the free edge, square to the face; grows as the lever shortens and the tool leans.
     pub penalty: f64,
 }
 

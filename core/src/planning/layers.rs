@@ -315,7 +315,7 @@ impl<G: Guard> Layers<'_, G> {
         }
     }
 
-    /// Grows near the joints' limits.
+    /// Grows near the joints' limits (eq. 85).
     fn posture_penalty(&self, positions: &JointPositions) -> f64 {
         let joints = self.arm.joints.iter().zip(positions.iter());
         let margins = joints.map(|(joint, &q)| (q - joint.lower_rad).min(joint.upper_rad - q));

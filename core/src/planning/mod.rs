@@ -1,12 +1,14 @@
 //! How an arm closes a box: which flaps in which order, pushed how, and why not.
 //!
 //! Geometry of flaps and fingers (`flap`, `touch`, `contact`), the layered search of one push (`layers`, `push`), the ways to it and
-//! between flaps (`line`, `transit`), and the order (`boards`, `order`, `closing`). Metres, radians, the robot's base frame.
+//! between flaps (`line`, `transit`), the order (`boards`, `order`, `closing`), times (`timing`); beside them the planner of 2011 (`planes`)
+//! and brute force (`exhaustive`), which tables hold the planner against. Metres, radians, the robot's base frame.
 
 mod answer;
 mod boards;
 mod closing;
 mod contact;
+mod exhaustive;
 mod flap;
 mod guard;
 mod layers;

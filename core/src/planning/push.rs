@@ -229,7 +229,7 @@ fn straight(place: f64, count: usize) -> Vec<(usize, f64)> {
     vec![(knot, 1.0 - share), (knot + 1, share)]
 }
 
-/// The same on a uniform quadratic B-spline, which begins and ends at the outer knots and turns without a corner.
+/// The same on a uniform quadratic B-spline (eq. 86), which begins and ends at the outer knots and turns without a corner.
 fn smooth(place: f64, count: usize) -> Vec<(usize, f64)> {
     let middle = (place.round() as usize).clamp(0, count - 1);
     if middle == 0 || middle == count - 1 {

@@ -4,6 +4,9 @@ use serde::Deserialize;
 
 use super::answer::{timed, Answer};
 use super::closing::Closer;
+use super::exhaustive::Exhaustive;
+use super::flap::Standing;
+use super::guard::Moment;
 use super::problem::MeasuredBox;
 use super::reason::Obstacle;
 use super::settings::PlanningSettings;
@@ -104,6 +107,39 @@ impl Request {
             }
         }
         unreachable!("every attempt leaves one more flap open, and without flaps there is no motion")
+    }
+}
+
+impl Request {
+    /// For each flap that is open, by name: can brute force close it by itself, all others as they are? Takes minutes.
+    ///
+    /// # Errors
+    /// As [`Request::plan`].
+    pub fn feasible(self, arm: &Arm) -> Result<Vec<(String, bool)>> {
+        let problem = self.measured.into_problem()?;
+        let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
+        let guard = Surroundings::new(arm, &problem, scene);
+        guard.check_base()?;
+        let angles_rad: Vec<f64> = problem.flaps.iter().map(|flap| flap.position_rad).collect();
+        let moment = Moment::resting(&angles_rad);
+        let asked = problem.flaps.iter().enumerate().filter(|(_, flap)| {
+            flap.standing == Standing::Seen
+                && flap.position_rad > self.settings.closed_rad
+                && (self.only.is_empty() || self.only.contains(&flap.name))
+        });
+        let answers = asked.map(|(number, flap)| {
+            let search = Exhaustive {
+                arm,
+                guard: &guard,
+                settings: &self.settings,
+                flap,
+                number,
+                thickness_m: problem.thickness_m,
+                moment: &moment,
+            };
+            (flap.name.clone(), search.can_close())
+        });
+        Ok(answers.collect())
     }
 }
 

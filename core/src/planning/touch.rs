@@ -36,7 +36,7 @@ impl Finger {
     /// The touch of a finger whose tool point is `at` (along, away) in the flap's plane, turned as `flap_from_tool`.
     /// None where it passes the flap by.
     ///
-    /// What reaches furthest in the push direction of the finger inside the prism over the flap is a linear program in three
+    /// Eq. 84. What reaches furthest in the push direction of the finger inside the prism over the flap is a linear program in three
     /// variables: it lies at a corner of the finger, where one of its edges passes an edge of the flap, or over a corner of the flap.
     pub fn touch(
         &self,
@@ -126,4 +126,66 @@ fn contains(outline: &[[f64; 2]; 4], p: [f64; 2]) -> bool {
 /// A tool's rotation told in a flap's frame.
 pub fn flap_from_tool(frame: &FlapFrame, base_from_tool: &Matrix3<f64>) -> Matrix3<f64> {
     Matrix3::from_columns(&[frame.along, frame.away, frame.outward]).tr_mul(base_from_tool)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+
+    use super::*;
+    use crate::geometry::SplitMix64;
+
+    const FINGER: Finger = Finger { half_m: [0.01, 0.01], length_m: 0.08 };
+    const OUTLINE: [[f64; 2]; 4] = [[0.0, 0.0], [0.2, 0.0], [0.18, 0.1], [0.03, 0.1]];
+
+    /// The lowest point over the outline of a finger filled with points.
+    fn lowest_of_points(at: [f64; 2], rotation: &Matrix3<f64>) -> Option<f64> {
+        let steps = 40;
+        let share = |k: usize| k as f64 / steps as f64;
+        let mut lowest: Option<f64> = None;
+        for i in 0..=steps {
+            for j in 0..=steps {
+                for k in 0..=2 * steps {
+                    let p = rotation
+                        * Vec3::new(
+                            0.02 * share(i) - 0.01,
+                            0.02 * share(j) - 0.01,
+                            -0.08 * k as f64 / (2 * steps) as f64,
+                        );
+                    if contains(&OUTLINE, [at[0] + p.x, at[1] + p.y]) {
+                        lowest = Some(lowest.map_or(p.z, |w: f64| w.min(p.z)));
+                    }
+                }
+            }
+        }
+        lowest
+    }
+
+    #[test]
+    fn touches_where_a_finger_filled_with_points_does() {
+        let mut rng = SplitMix64::new(84);
+        let mut touched = 0;
+        for _ in 0..60 {
+            let axis = Vec3::new(rng.unit() - 0.5, rng.unit() - 0.5, rng.unit() - 0.5);
+            let rotation = *Rotation3::new(axis.normalize() * (6.0 * rng.unit())).matrix();
+            let at = [0.24 * rng.unit() - 0.02, 0.14 * rng.unit() - 0.02];
+            let Some(touch) = FINGER.touch(&OUTLINE, 0.002, at, &rotation) else {
+                assert!(lowest_of_points(at, &rotation).is_none());
+                continue;
+            };
+            let Some(lowest) = lowest_of_points(at, &rotation) else { continue };
+            let exact = 0.002 - touch.tool_outward_m;
+            // Points lie at most 2 mm from one another: the exact optimum is no higher, and lower by little.
+            assert!(exact <= lowest + 1e-12 && lowest - exact < 0.0035, "{exact} {lowest}");
+            touched += 1;
+        }
+        assert!(touched > 40, "{touched}");
+    }
+
+    #[test]
+    fn a_finger_square_on_the_face_stands_on_its_tip() {
+        let down = *Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI).matrix();
+        let touch = FINGER.touch(&OUTLINE, 0.002, [0.1, 0.05], &down).unwrap();
+        assert!((touch.tool_outward_m - 0.002).abs() < 1e-12);
+    }
 }

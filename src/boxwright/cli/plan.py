@@ -29,6 +29,9 @@ def plan(
     object_index: ObjectOption = 0,
     scene: SceneOption = None,
     planner: PlannerOption = "layered",
+    moves: Annotated[
+        bool, typer.Option("--moves", help="Look for the smallest move of the base that lets an open flap be closed.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
     """Plan the motions that close a box's flaps, or say why not.
@@ -49,6 +52,10 @@ def plan(
     model = load_model(model_dir / "model.json")
     pose = base_pose(model, robot, camera_pose, place_robot, object_index)
     made = make_plan(model, robot, pose, object_index, scene, planner)
+    if moves:
+        from boxwright.planning import with_moves
+
+        made = with_moves(made, model, robot)
     files = save_plan_folder(made, model, pose, output)
     print_plan(made, files, as_json=as_json)
     status = exit_status(made)

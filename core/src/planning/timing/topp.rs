@@ -1,9 +1,9 @@
 //! Time-optimal path parameterization by reachability analysis (H. Pham, Q.-C. Pham, "A New Approach to Time-Optimal Path
 //! Parameterization Based on Reachability Analysis", T-RO 2018): with x the squared path speed and u the path acceleration, every
-//! limit is linear in (u, x). Backwards: the greatest x at each place from which the rest can be done. Forwards: as fast as that lets.
+//! limit is linear in (u, x) (eq. 87). Backwards: the greatest x at each place from which the rest can be done. Forwards: as fast as that lets.
 //!
-//! Two variables and some fifteen bounds make each step's linear program a walk over their corners; the published library (MIT,
-//! the oracle of the tests) takes tens of milliseconds a piece for it and brings a plotting library along.
+//! Two variables and some fifteen bounds make each step's linear program a walk over their corners. The authors' library, toppra, is
+//! the tests' oracle; here it would take most of the planning time and bring a plotting library along.
 
 use super::spline::Spline;
 
