@@ -81,7 +81,10 @@ def _placed(rng: np.random.Generator, box: OpenBox) -> Array | None:
     """base_from_box somewhere before the arm, or None where it stands too near to it."""
     distance_m, bearing_rad = rng.uniform(*CENTRE_M), np.radians(rng.uniform(*BEARING_DEG))
     base_from_box = standing(
-        distance_m * np.cos(bearing_rad), distance_m * np.sin(bearing_rad), rng.uniform(0, 2 * np.pi), -rng.uniform(*BELOW_M)
+        distance_m * np.cos(bearing_rad),
+        distance_m * np.sin(bearing_rad),
+        rng.uniform(0, 2 * np.pi),
+        -rng.uniform(*BELOW_M),
     )
     sides = apply(base_from_box, np.column_stack([outline(box, box.board_m / 2), np.zeros(4)]))
     flaps = [apply(base_from_box, panel.corners) for panel in build_panels(box) if panel.parent is not None]
@@ -166,7 +169,9 @@ def _joint(panel: Panel, base_from_box: Array) -> Joint:
 
 def _pose(base_from_box: Array) -> Pose:
     half = np.arctan2(base_from_box[1, 0], base_from_box[0, 0]) / 2
-    return Pose(position=_vector(base_from_box[:3, 3]), orientation=(0.0, 0.0, float(np.sin(half)), float(np.cos(half))))
+    return Pose(
+        position=_vector(base_from_box[:3, 3]), orientation=(0.0, 0.0, float(np.sin(half)), float(np.cos(half)))
+    )
 
 
 def _vector(values: Array) -> tuple[float, float, float]:

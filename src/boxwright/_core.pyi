@@ -412,7 +412,7 @@ def feasible_flaps(robot: str, request: str) -> list[tuple[str, bool]]:
 def time_way(
     way: NDArray[np.float64], speeds: list[float], accelerations: list[float], period_s: float
 ) -> tuple[list[float], list[list[float]], list[list[float]]]:
-    """The fastest motion from rest to rest along postures (N, axes), rad: times (M,) s, positions, velocities (M, axes).
+    """The fastest motion along postures (N, axes), rad, from rest to rest: times (M,), positions, velocities (M, axes).
 
     Raises ValueError where shapes do not fit or nothing moves.
     """

@@ -32,7 +32,8 @@ ONLY_IN = {
     "typer": {"cli"},
     "rich": {"cli"},
     "matplotlib": {"figures"},
-    "mcap_ros2": {"io"}, "mujoco": {"simulation"},
+    "mcap_ros2": {"io"},
+    "mujoco": {"simulation"},
     "PIL": {"simulation"},
     "scipy": set(),
 }

@@ -101,7 +101,7 @@ def test_moving_robot_and_box_together_changes_nothing_but_rounding() -> None:
     assert other.segments[-1].times[-1] == pytest.approx(plain.segments[-1].times[-1], rel=0.2)
 
 
-def _moved(problem: Problem, input_from_base: np.ndarray):  # noqa: ANN202
+def _moved(problem: Problem, input_from_base: np.ndarray):
     def point(values: tuple[float, ...]) -> tuple[float, ...]:
         return tuple((input_from_base[:3, :3] @ values + input_from_base[:3, 3]).tolist())
 

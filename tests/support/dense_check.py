@@ -20,7 +20,7 @@ CLOSED_RAD = np.radians(15.0)
 
 @dataclass(frozen=True)
 class Dense:
-    """A segment a millisecond apart: positions, velocities, accelerations (S, J), and the hinge's angle (S,) or None."""
+    """A segment each millisecond: positions, velocities, accelerations (S, J), the hinge's angle (S,) or None."""
 
     positions: Array
     velocities: Array
@@ -37,7 +37,9 @@ def dense(segment: PlanSegment) -> Dense:
     s = ((at - times[k])[:, None]) / span
     q, v = np.array(segment.positions), np.array(segment.velocities)
     p0, p1, m0, m1 = q[k], q[k + 1], v[k] * span, v[k + 1] * span
-    positions = (2 * s**3 - 3 * s**2 + 1) * p0 + (s**3 - 2 * s**2 + s) * m0 + (3 * s**2 - 2 * s**3) * p1 + (s**3 - s**2) * m1
+    positions = (
+        (2 * s**3 - 3 * s**2 + 1) * p0 + (s**3 - 2 * s**2 + s) * m0 + (3 * s**2 - 2 * s**3) * p1 + (s**3 - s**2) * m1
+    )
     velocities = ((6 * s**2 - 6 * s) * (p0 - p1) + (3 * s**2 - 4 * s + 1) * m0 + (3 * s**2 - 2 * s) * m1) / span
     accelerations = ((12 * s - 6) * (p0 - p1) + (6 * s - 4) * m0 + (6 * s - 2) * m1) / span**2
     hinge = None if segment.hinge_angle_rad is None else np.interp(at, times, segment.hinge_angle_rad)

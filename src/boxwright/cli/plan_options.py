@@ -26,9 +26,7 @@ CameraPoseOption = Annotated[
 ]
 PlaceRobotOption = Annotated[
     bool,
-    typer.Option(
-        "--place-robot", help="Search a place for the robot's base, and write it.", rich_help_panel=PLANNING
-    ),
+    typer.Option("--place-robot", help="Search a place for the robot's base, and write it.", rich_help_panel=PLANNING),
 ]
 ObjectOption = Annotated[
     int, typer.Option("--object", min=0, metavar="K", help="Which object to close.", rich_help_panel=PLANNING)

@@ -24,9 +24,7 @@ def base_pose(model: Model, robot: str, camera_pose: Path | None, place_robot: b
     return search(model, robot, object_index=object_index)
 
 
-def make_plan(
-    model: Model, robot: str, pose: Pose, object_index: int, scene: Path | None, planner: str
-) -> Plan:
+def make_plan(model: Model, robot: str, pose: Pose, object_index: int, scene: Path | None, planner: str) -> Plan:
     """The plan; raises as `plan_closing` does."""
     from boxwright.planning import plan_closing, read_scene
 

@@ -62,7 +62,7 @@ def save_ros_trajectory(plan: Plan, path: str | PathLike[str]) -> None:
         writer = Writer(file)
         schema = writer.register_msgdef(MESSAGE, DEFINITION)
         writer.write_message(TOPIC, schema, message, log_time=0, publish_time=0)
-        writer.finish()
+        writer.finish()  # type: ignore[no-untyped-call]
 
 
 def _points(plan: Plan) -> list[dict[str, Any]]:

@@ -18,14 +18,14 @@ BELOW_FLOOR_M = 0.02
 
 
 def refuse_poses(model: Model, model_object: Object, base_from_input: Matrix) -> None:
-    """Raises ValueError where the box lies upside down, below its floor, or out of any arm's reach in the base frame."""
+    """Raises ValueError where the box lies upside down, below its floor, or out of any arm's reach."""
     corners = np.concatenate([np.array(part.corners) for part in model_object.parts if part.corners is not None])
     corners_base = apply(base_from_input, corners)
     up = base_from_input[:3, :3] @ np.array(model.up)
     if up[2] < 0.0:
         raise ValueError(
-            f"camera pose: the box's up is ({up[0]:.2f}, {up[1]:.2f}, {up[2]:.2f}) in the robot's base frame, below the "
-            "floor; base_from_input must turn it to +z"
+            f"camera pose: the box's up is ({up[0]:.2f}, {up[1]:.2f}, {up[2]:.2f}) in the robot's base frame, below "
+            "the floor; base_from_input must turn it to +z"
         )
     if corners_base[:, 2].max() < -TOO_FAR_M / 3.0:
         raise ValueError(

@@ -54,9 +54,7 @@ def place_robot(
     return _pose(best[1])
 
 
-def with_moves(
-    plan: Plan, model: Model, robot: str | PathLike[str], settings: Mapping[str, Any] | None = None
-) -> Plan:
+def with_moves(plan: Plan, model: Model, robot: str | PathLike[str], settings: Mapping[str, Any] | None = None) -> Plan:
     """The plan, with the smallest move of the base, of a fixed list, that lets each flap be closed that it leaves open.
 
     A flap is tried by itself, the others where the plan leaves them.
@@ -99,7 +97,9 @@ def _moves() -> list[SmallestMove]:
                 found.append(_move(step_m * x / length, step_m * y / length))
         found += [_move(z_m=sign * step_m) for sign in (1.0, -1.0)]
     found += [_move(yaw_rad=float(np.radians(turn))) for turn in TURNS_DEG]
-    return sorted(found, key=lambda m: round(float(np.hypot(np.hypot(m.x_m, m.y_m), m.z_m)) + TURN_M_PER_RAD * abs(m.yaw_rad), 9))
+    return sorted(
+        found, key=lambda m: round(float(np.hypot(np.hypot(m.x_m, m.y_m), m.z_m)) + TURN_M_PER_RAD * abs(m.yaw_rad), 9)
+    )
 
 
 def _move(x_m: float = 0.0, y_m: float = 0.0, z_m: float = 0.0, yaw_rad: float = 0.0) -> SmallestMove:
