@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from closing.record import CREASES, METHODS, records
+from benchmarks.closing.record import CREASES, METHODS, records
 
 
 def main() -> None:

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
+from benchmarks.closing.problems import Problem, draw_problem
 
 from boxwright.planning import plan_closing
 from boxwright.simulation.physics import simulate
 from boxwright.types import Plan, Simulation
-from closing.problems import Problem, draw_problem
 
 ROBOT = "viper_s850"
 METHODS = ("layered", "paper")

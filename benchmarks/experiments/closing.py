@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
+from benchmarks.closing.problems import COUNT
+from benchmarks.closing.record import CREASES, METHODS, FlapRecord, Record, records
 from benchmarks.experiments.lab import Lab
 from benchmarks.experiments.report import Cell, Report, Table
-from closing.problems import COUNT
-from closing.record import CREASES, METHODS, FlapRecord, Record, records
 from matplotlib.figure import Figure
 
 FOLDER = Path("out/closing")

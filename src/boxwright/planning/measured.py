@@ -10,6 +10,9 @@ from boxwright.kinematics.transforms import Matrix, apply
 from boxwright.types import Joint, Model, Object, Part
 from boxwright.types.board import BOARD_THICKNESS_M
 
+LEAST_FLAP_M = 0.005
+"""A flap that is shorter or narrower gives a finger nothing to push: it counts as absent."""
+
 LEAST_PRESENT = 0.5
 """A part that is less probable than this to be there is absent."""
 
@@ -65,7 +68,7 @@ def _flap(part: Part, joint: Joint | None, model_object: Object, base_from_input
     flap: dict[str, Any] = {
         "name": part.name,
         "side": part.name.replace("flap", "side") if joint is None else joint.parent,
-        "standing": _standing(part, joint),
+        "standing": "absent" if _is_stub(part, joint) else _standing(part, joint),
         "corners": None if joint is None else _corners(part, base_from_input),
         "origin": [0.0, 0.0, 0.0],
         "axis": [1.0, 0.0, 0.0],
@@ -80,6 +83,16 @@ def _flap(part: Part, joint: Joint | None, model_object: Object, base_from_input
             model_object, {other.name for other in model_object.parts} - children, base_from_input, ""
         )
     return flap
+
+
+def _is_stub(part: Part, joint: Joint | None) -> bool:
+    """A flap that was fitted to have next to no length."""
+    if joint is None or part.corners is None:
+        return False
+    corners, axis = np.array(part.corners), np.array(joint.axis)
+    reach = corners[2:].mean(axis=0) - corners[:2].mean(axis=0)
+    width_m = float(np.linalg.norm(corners[1] - corners[0]))
+    return min(float(np.linalg.norm(reach - (reach @ axis) * axis)), width_m) < LEAST_FLAP_M
 
 
 def _standing(part: Part, joint: Joint | None) -> str:

@@ -14,6 +14,7 @@ from boxwright.kinematics.transforms import Matrix, from_pose, inverse, rigid, t
 from boxwright.planning.asking import ask
 from boxwright.planning.checks import refuse_poses
 from boxwright.planning.measured import measured_box
+from boxwright.robots import robot_file
 from boxwright.types import Model, Plan, Pose, SmallestMove
 
 DISTANCES_M = (0.52, 0.60, 0.45, 0.68)
@@ -42,6 +43,8 @@ def place_robot(
         raise ValueError(f"object {object_index} is not in the model; it has {len(model.objects)}, counted from 0")
     if model.objects[object_index].pose is None:
         raise ValueError(f"object {object_index} has no pose: too little of it was seen to put a robot before it")
+    robot_file(robot)
+    measured_box(model, object_index, np.eye(4))
     best: tuple[int, Matrix] | None = None
     for base_from_input in _places(model, object_index):
         closed, left = _closed_and_left(model, robot, object_index, base_from_input, settings)
@@ -119,10 +122,9 @@ def _closed_and_left(
     box = measured_box(model, index, base_from_input)
     try:
         answer = ask(robot, box, settings)
-    except ValueError as error:
-        if "before it has moved" in str(error):
-            return None, 0
-        raise
+    except ValueError:
+        # Robot, model and object were looked at before: the arm would stand inside something here.
+        return None, 0
     unknown = ("planned", "already_closed", "absent", "hidden")
     return len(answer["order"]), sum(flap["status"] not in unknown for flap in answer["flaps"])
 
