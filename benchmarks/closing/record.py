@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -11,12 +12,13 @@ from benchmarks.closing.problems import Problem, draw_problem
 
 from boxwright.planning import plan_closing
 from boxwright.simulation.physics import simulate
-from boxwright.types import Plan, Simulation
+from boxwright.types import Simulation
 
 ROBOT = "viper_s850"
 METHODS = ("layered", "paper")
 CREASES = ("pre_broken", "ordinary", "stiff")
-CLOSED_RAD = np.radians(15.0)
+REACHED_RAD = math.radians(2.0)
+"""A servo brings a flap this near to 0 where the plan pushes it to 0 or beyond."""
 
 
 class FlapRecord(msgspec.Struct, frozen=True):
@@ -64,7 +66,7 @@ def measure(problem: Problem, method: str, creases: Sequence[str], feasible: dic
         if outcome.status not in ("absent", "hidden")
     )
     failures = {crease: run.failure for crease, run in runs.items() if run.failure is not None}
-    return Record(problem.number, problem.category, method, _planning_seconds(plan), flaps, failures)
+    return Record(problem.number, problem.category, method, plan.seconds, flaps, failures)
 
 
 def records(folder: Path, numbers: Sequence[int], methods: Sequence[str], creases: Sequence[str]) -> list[Record]:
@@ -88,10 +90,6 @@ def _farthest(problem: Problem) -> str:
 
 
 def _reached(run: Simulation, name: str) -> bool:
-    """Was it at 0, or beyond, while it was pushed? As near as an arm's servo brings it: 2 degrees."""
+    """Was it at 0, or beyond, while it was pushed?"""
     flap = run.flaps.get(name)
-    return flap is not None and flap.pushed_to_rad is not None and flap.pushed_to_rad <= np.radians(2.0)
-
-
-def _planning_seconds(plan: Plan) -> float:
-    return plan.seconds
+    return flap is not None and flap.pushed_to_rad is not None and flap.pushed_to_rad <= REACHED_RAD

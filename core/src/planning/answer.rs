@@ -259,14 +259,11 @@ fn legs(way: &[JointPositions]) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut first = 0;
     for k in 1..way.len().saturating_sub(1) {
-        let (mut dot, mut before_sq, mut after_sq) = (0.0, 0.0, 0.0);
-        for j in 0..way[k].len() {
-            let (before, after) = (way[k][j] - way[k - 1][j], way[k + 1][j] - way[k][j]);
-            dot += before * after;
-            before_sq += before * before;
-            after_sq += after * after;
-        }
-        if dot < CORNER * f64::sqrt(before_sq * after_sq) {
+        let steps = way[k].iter().zip(way[k - 1].iter()).zip(way[k + 1].iter()).map(|((q, p), r)| (q - p, r - q));
+        let sums = steps.fold([0.0; 3], |[dot, before_sq, after_sq], (before, after)| {
+            [dot + before * after, before_sq + before * before, after_sq + after * after]
+        });
+        if sums[0] < CORNER * f64::sqrt(sums[1] * sums[2]) {
             found.push((first, k));
             first = k;
         }

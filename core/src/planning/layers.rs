@@ -4,23 +4,14 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
+use super::beam::{trace, Kept, Key, State};
 use super::contact::{Contacts, Grip};
 use super::guard::{Guard, Moment};
 use super::orientations::OrientationGrid;
+use super::posture::{limit_penalty, nearest, out_of_reach};
 use super::reason::{Obstacle, Tally};
 use super::settings::PlanningSettings;
 use crate::arm::{Arm, JointPositions, Solutions};
-
-/// One state of a layer: a contact, a tool orientation and a posture of the arm.
-#[derive(Debug, Clone, Copy)]
-pub struct State {
-    pub place: [usize; 2],
-    pub orientation: usize,
-    pub positions: JointPositions,
-    branch: u8,
-    cost: f64,
-    before: usize,
-}
 
 /// What a layer's search needs to know.
 pub struct Layers<'a, G: Guard> {
@@ -45,9 +36,6 @@ pub enum Found {
 type Reached = Option<Rc<(Grip, Solutions)>>;
 /// The poses of one layer that were asked for, by place and orientation.
 type Memory = RefCell<HashMap<([usize; 2], usize), Reached>>;
-/// A state by what tells it apart from others of its layer.
-type Key = ([usize; 2], usize, u8, [i8; 2]);
-
 impl<G: Guard> Layers<'_, G> {
     /// Searches with so many states kept in each layer. `starts` and `ends` say whether the arm can come to a first state, and leave
     /// a last one.
@@ -111,7 +99,7 @@ impl<G: Guard> Layers<'_, G> {
             let Some(reached) = self.reached(0, place, orientation, None, &memory, tally) else { continue };
             let (grip, solutions) = &*reached;
             if solutions.is_empty() {
-                tally.add(self.out_of_reach(grip));
+                tally.add(out_of_reach(self.arm, &grip.base_from_tool));
             }
             for solution in solutions {
                 let state = State {
@@ -119,7 +107,7 @@ impl<G: Guard> Layers<'_, G> {
                     orientation,
                     positions: solution.positions,
                     branch: solution.branch,
-                    cost: grip.penalty + self.posture_penalty(&solution.positions),
+                    cost: grip.penalty + limit_penalty(self.arm, &solution.positions),
                     before: 0,
                 };
                 if !kept.has_room(&state) {
@@ -199,7 +187,7 @@ impl<G: Guard> Layers<'_, G> {
             let Some(reached) = self.reached(layer, place, orientation, near, memory, tally) else { continue };
             let (grip, solutions) = &*reached;
             if solutions.is_empty() {
-                tally.add(self.out_of_reach(grip));
+                tally.add(out_of_reach(self.arm, &grip.base_from_tool));
             }
             let mut follows = false;
             for solution in solutions {
@@ -213,7 +201,7 @@ impl<G: Guard> Layers<'_, G> {
                     + 0.3 * grip.penalty
                     + change
                     + 0.5 * squares
-                    + 0.3 * self.posture_penalty(&solution.positions);
+                    + 0.3 * limit_penalty(self.arm, &solution.positions);
                 let next = State {
                     place,
                     orientation,
@@ -289,7 +277,7 @@ impl<G: Guard> Layers<'_, G> {
         };
         let solutions = self.arm.inverse_near(&grip.base_from_tool, &from.positions);
         let Some((positions, turn)) = nearest(&solutions, &from.positions) else {
-            return Some(self.out_of_reach(&grip));
+            return Some(out_of_reach(self.arm, &grip.base_from_tool));
         };
         if turn > self.settings.most_turn_rad {
             return Some(Obstacle::Jump);
@@ -304,23 +292,6 @@ impl<G: Guard> Layers<'_, G> {
     fn clearance_m(&self) -> f64 {
         self.settings.clearance_m + self.settings.search_margin_m
     }
-
-    /// Why no posture reaches a pose: the joint that is short, in the branch that is the least short, or the reach.
-    fn out_of_reach(&self, grip: &Grip) -> Obstacle {
-        let branches = self.arm.branches(&grip.base_from_tool);
-        let short = branches.iter().filter_map(|branch| self.arm.joint_short_of(branch));
-        match short.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            Some((joint, _)) => Obstacle::Limit { joint: self.arm.joints[joint].name.clone() },
-            None => Obstacle::Reach,
-        }
-    }
-
-    /// Grows near the joints' limits (eq. 85).
-    fn posture_penalty(&self, positions: &JointPositions) -> f64 {
-        let joints = self.arm.joints.iter().zip(positions.iter());
-        let margins = joints.map(|(joint, &q)| (q - joint.lower_rad).min(joint.upper_rad - q));
-        margins.map(|margin| (1.0 - margin / LIMIT_NEAR_RAD).max(0.0)).sum()
-    }
 }
 
 /// Whole paths handed back, at most.
@@ -328,61 +299,3 @@ const MOST_PATHS: usize = 6;
 /// The first layer is this much wider than the others, and this many postures are tried for it.
 const START_WIDTH: usize = 2;
 const START_TRIES: usize = 2000;
-const LIMIT_NEAR_RAD: f64 = 0.15;
-
-impl State {
-    fn key(&self) -> Key {
-        // Wraps of one branch differ by whole turns of the joints that turn widest.
-        let turn = |q: Option<&f64>| (q.copied().unwrap_or(0.0) / std::f64::consts::PI).floor() as i8;
-        (self.place, self.orientation, self.branch, [turn(self.positions.get(3)), turn(self.positions.last())])
-    }
-}
-
-/// The states of a layer so far, not too many of one orientation.
-struct Kept {
-    states: Vec<State>,
-    most: usize,
-    most_alike: usize,
-    alike: HashMap<(usize, u8), usize>,
-}
-
-impl Kept {
-    fn new(most: usize, beam: usize) -> Self {
-        Self { states: Vec::new(), most, most_alike: (beam / 8).max(2), alike: HashMap::new() }
-    }
-
-    fn is_full(&self) -> bool {
-        self.states.len() >= self.most
-    }
-
-    fn has_room(&self, state: &State) -> bool {
-        self.alike.get(&(state.orientation, state.branch)).is_none_or(|&count| count < self.most_alike)
-    }
-
-    fn push(&mut self, state: State) {
-        *self.alike.entry((state.orientation, state.branch)).or_default() += 1;
-        self.states.push(state);
-    }
-}
-
-/// The solution whose widest turn from `from` is the least, and that turn, rad.
-pub fn nearest(solutions: &Solutions, from: &JointPositions) -> Option<(JointPositions, f64)> {
-    let widest = |to: &JointPositions| to.iter().zip(from.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let all = solutions.iter().map(|solution| (solution.positions, widest(&solution.positions)));
-    all.min_by(|a, b| a.1.total_cmp(&b.1))
-}
-
-fn trace(layers: &[Vec<State>], end: usize) -> Vec<State> {
-    let mut number = end;
-    let mut path: Vec<State> = layers
-        .iter()
-        .rev()
-        .map(|states| {
-            let state = states[number];
-            number = state.before;
-            state
-        })
-        .collect();
-    path.reverse();
-    path
-}

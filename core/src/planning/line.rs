@@ -3,7 +3,7 @@
 use super::contact::Grip;
 use super::flap::FlapFrame;
 use super::guard::{Guard, Moment};
-use super::layers::nearest;
+use super::posture::nearest;
 use super::reason::Obstacle;
 use super::settings::PlanningSettings;
 use crate::arm::{Arm, JointPositions};

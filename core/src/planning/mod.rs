@@ -5,6 +5,7 @@
 //! and brute force (`exhaustive`), which tables hold the planner against. Metres, radians, the robot's base frame.
 
 mod answer;
+mod beam;
 mod boards;
 mod closing;
 mod contact;
@@ -16,6 +17,7 @@ mod line;
 mod order;
 mod orientations;
 mod planes;
+mod posture;
 mod problem;
 mod push;
 mod reason;

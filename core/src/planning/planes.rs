@@ -8,8 +8,8 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
 use super::contact::Grip;
 use super::guard::Guard;
-use super::layers::nearest;
 use super::line::Lines;
+use super::posture::nearest;
 use super::push::{layers_between, PushMotion, Pusher};
 use super::reason::{Obstacle, Tally, WhyNot};
 use super::settings::PlanningSettings;

@@ -2,11 +2,13 @@
 
 use nalgebra::UnitQuaternion;
 
+use super::beam::State;
 use super::contact::Contacts;
 use super::guard::{Guard, Moment};
-use super::layers::{nearest, Found, Layers, State};
+use super::layers::{Found, Layers};
 use super::line::Lines;
 use super::orientations::blend;
+use super::posture::nearest;
 use super::reason::{Obstacle, Status, Tally, WhyNot};
 use super::settings::PlanningSettings;
 use super::touch::Finger;

@@ -57,13 +57,14 @@ def close(
 
     from boxwright.answers import save_answer
     from boxwright.cli.plan_report import NOT_CLOSED, exit_status, print_plan
-    from boxwright.cli.plan_steps import base_pose, make_plan, save_plan_folder
+    from boxwright.cli.plan_steps import base_pose, make_plan, require_place, save_plan_folder
     from boxwright.cli.simulate_report import all_held, draw, print_run
     from boxwright.io.simulations import save_simulation
     from boxwright.io.truth import load_truth
     from boxwright.simulation.physics import CREASE
     from boxwright.simulation.physics import simulate as simulate_plan
 
+    require_place(camera_pose, place_robot)
     start = time.perf_counter()
     read = reading.read(cloud)
     inferred = model.infer(read, looking, time.perf_counter() - start)

@@ -11,10 +11,15 @@ if TYPE_CHECKING:
     from boxwright.types import Model, Plan, Pose
 
 
-def base_pose(model: Model, robot: str, camera_pose: Path | None, place_robot: bool, object_index: int) -> Pose:
-    """base_from_input: as it was told, or as the search for a place finds it. A wrong command line without either."""
+def require_place(camera_pose: Path | None, place_robot: bool) -> None:
+    """Where the robot stands is told, or searched: one of both, else the command line is wrong."""
     if (camera_pose is None) != place_robot:
         raise typer.BadParameter("give one of --camera-pose POSE.json and --place-robot", param_hint="--camera-pose")
+
+
+def base_pose(model: Model, robot: str, camera_pose: Path | None, place_robot: bool, object_index: int) -> Pose:
+    """base_from_input: as it was told, or as the search for a place finds it. A wrong command line without either."""
+    require_place(camera_pose, place_robot)
     if camera_pose is not None:
         from boxwright.io.plans import load_pose
 

@@ -56,17 +56,23 @@ impl Spline {
         let width = self.knots[k + 1] - self.knots[k];
         let after = ((place - self.knots[k]) / width).clamp(0.0, 1.0);
         let rest = 1.0 - after;
-        let mut found = [self.values[k]; 3];
-        for j in 0..self.values[k].len() {
-            let (p, q) = (self.values[k][j], self.values[k + 1][j]);
-            let (c, d) = (self.curvatures[k][j], self.curvatures[k + 1][j]);
-            let sixth = width * width / 6.0;
-            found[0][j] = rest * p + after * q + sixth * ((rest.powi(3) - rest) * c + (after.powi(3) - after) * d);
-            found[1][j] =
-                (q - p) / width + width / 6.0 * ((1.0 - 3.0 * rest * rest) * c + (3.0 * after * after - 1.0) * d);
-            found[2][j] = rest * c + after * d;
-        }
-        found
+        // Weights of the knots' values p, q and curvatures c, d.
+        let mixed = |weights: [f64; 4]| {
+            let mut made = self.values[k];
+            for (j, value) in made.iter_mut().enumerate() {
+                let (p, q) = (self.values[k][j], self.values[k + 1][j]);
+                let (c, d) = (self.curvatures[k][j], self.curvatures[k + 1][j]);
+                *value = weights[0] * p + weights[1] * q + weights[2] * c + weights[3] * d;
+            }
+            made
+        };
+        let (sixth, slope) = (width / 6.0, 1.0 / width);
+        let cubic = |share: f64| sixth * width * (share.powi(3) - share);
+        [
+            mixed([rest, after, cubic(rest), cubic(after)]),
+            mixed([-slope, slope, sixth * (1.0 - 3.0 * rest * rest), sixth * (3.0 * after * after - 1.0)]),
+            mixed([0.0, 0.0, rest, after]),
+        ]
     }
 }
 
