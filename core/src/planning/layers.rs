@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::beam::{trace, Kept, Key, State};
 use super::contact::{Contacts, Grip};
 use super::guard::{Guard, Moment};
-use super::orientations::OrientationGrid;
+use super::orientations::{blend, OrientationGrid};
 use super::posture::{limit_penalty, nearest, out_of_reach};
 use super::reason::{Obstacle, Tally};
 use super::settings::PlanningSettings;
@@ -268,10 +268,8 @@ impl<G: Guard> Layers<'_, G> {
         let angle_rad = (self.angles_rad[layer - 1] + self.angles_rad[layer]) / 2.0;
         let (p, q) = (self.place_m(from.place), self.place_m(to.place));
         let at = [(p[0] + q[0]) / 2.0, (p[1] + q[1]) / 2.0];
-        let rotation = super::orientations::blend(&[
-            (self.contacts.rotation(from.orientation), 0.5),
-            (self.contacts.rotation(to.orientation), 0.5),
-        ]);
+        let rotation =
+            blend(&[(self.contacts.rotation(from.orientation), 0.5), (self.contacts.rotation(to.orientation), 0.5)]);
         let Some(grip) = self.contacts.grip(&self.contacts.flap.frame(angle_rad), at, &rotation) else {
             return Some(Obstacle::Jump);
         };

@@ -12,7 +12,8 @@ pub struct PlanningSettings {
     pub closed_rad: f64,
     /// How far a flap is pushed beyond closed, so that it springs back to closed; above -15 degrees, where it counts as pushed in.
     pub overclose_rad: f64,
-    /// The same of a flap that comes to lie on others, or that carries a tuck.
+    /// The same of a flap that comes to lie on others, or that carries a tuck. Below 0, short of closed: its edge may lie near the
+    /// hinge of one below, which would be pushed in by many times as much.
     pub overclose_on_others_rad: f64,
     /// Where a flap that was let go is taken to rest.
     pub rest_rad: f64,
@@ -70,7 +71,7 @@ impl Default for PlanningSettings {
             search_margin_m: 0.0015,
             closed_rad: 15f64.to_radians(),
             overclose_rad: 9f64.to_radians(),
-            overclose_on_others_rad: 1.5f64.to_radians(),
+            overclose_on_others_rad: -1f64.to_radians(),
             rest_rad: 4f64.to_radians(),
             under_rad: 4f64.to_radians(),
             layer_rad: 8f64.to_radians(),
