@@ -32,7 +32,8 @@ struct Band {
 pub fn fastest(spline: &Spline, bounds: &[Bounds], cap_sq: impl Fn(f64) -> f64) -> Profile {
     let places = places(spline);
     let last = places.len() - 1;
-    let rows: Vec<(f64, Vec<Band>)> = places.iter().map(|&place| limits(spline, place, bounds, &cap_sq)).collect();
+    let points: Vec<(f64, Vec<Band>)> = places.iter().map(|&place| limits(spline, place, bounds, &cap_sq)).collect();
+    let rows: Vec<(f64, Vec<Band>)> = (0..last).map(|k| step_limits(&points[k], &points[k + 1], &places, k)).collect();
     let mut most = vec![0.0; places.len()];
     for k in (0..last).rev() {
         let step = 2.0 * (places[k + 1] - places[k]);
@@ -80,6 +81,13 @@ fn limits(spline: &Spline, place: f64, bounds: &[Bounds], cap_sq: &impl Fn(f64) 
         bands.push(Band { a: first[j], b: second[j], most: bound.acceleration });
     }
     (cap, bands)
+}
+
+/// The limits of a step: at its start, and at its end, where x has become x + step u (collocation at both).
+fn step_limits(start: &(f64, Vec<Band>), end: &(f64, Vec<Band>), places: &[f64], k: usize) -> (f64, Vec<Band>) {
+    let step = 2.0 * (places[k + 1] - places[k]);
+    let at_end = end.1.iter().map(|band| Band { a: band.a + step * band.b, b: band.b, most: band.most });
+    (start.0, start.1.iter().copied().chain(at_end).collect())
 }
 
 /// The greatest x in 0..cap for which some u keeps all bands and brings x + step u into 0..next.
