@@ -6,6 +6,8 @@ use boxwright_core::geometry::{Rigid, SplitMix64, Vec3};
 use nalgebra::Matrix3;
 
 const VIPER: &str = include_str!("../../src/boxwright/robots/data/viper_s850.toml");
+const KUKA: &str = include_str!("../../src/boxwright/robots/data/kuka_kr6_r700.toml");
+const PANDA: &str = include_str!("../../src/boxwright/robots/data/franka_panda.toml");
 const POSES: usize = 100_000;
 
 fn arm(text: &str) -> Arm {
@@ -93,6 +95,30 @@ fn inverse_undoes_forward(arm: &Arm, seed: u64, poses: usize) -> usize {
 fn the_inverse_undoes_the_forward() {
     let solutions = inverse_undoes_forward(&arm(VIPER), 7, POSES);
     assert!(solutions > 5 * POSES, "{solutions}");
+    let solutions = inverse_undoes_forward(&arm(KUKA), 8, POSES / 10);
+    assert!(solutions > 5 * POSES / 10, "{solutions}");
+}
+
+#[test]
+fn what_the_numeric_inverse_finds_is_right_and_the_same_each_time() {
+    let panda = arm(PANDA);
+    let mut viper = arm(VIPER);
+    viper.opw = None;
+    for (arm, least) in [(panda, 90), (viper, 75)] {
+        let mut rng = SplitMix64::new(9);
+        let mut reached = 0;
+        for _ in 0..100 {
+            let tool = arm.forward(&drawn(&arm, &mut rng));
+            let found = arm.inverse(&tool);
+            assert_eq!(found, arm.inverse(&tool));
+            for solution in &found {
+                assert_eq!(arm.limit_violation(&solution.positions), None);
+                assert!(apart(&arm.forward(&solution.positions), &tool) < 1e-8);
+            }
+            reached += usize::from(!found.is_empty());
+        }
+        assert!(reached >= least, "{}: {reached}", arm.name);
+    }
 }
 
 #[test]

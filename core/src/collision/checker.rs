@@ -19,15 +19,21 @@ pub struct Checker<'a> {
 impl Checker<'_> {
     /// Whether everything is at least as far apart as the rules say, at these positions (rad). The quick question.
     pub fn is_clear(&self, positions: &[f64], rules: &Rules) -> bool {
+        self.conflict(positions, rules).is_none()
+    }
+
+    /// The first pair that is nearer than the rules allow, the tool's before the arm's; costs what [`Checker::is_clear`] does.
+    pub fn conflict(&self, positions: &[f64], rules: &Rules) -> Option<(usize, Other)> {
         let frames = self.arm.link_frames(positions);
         let mut placed = ArrayVec::<Placed, MAX_PIECES>::new();
         for piece in &self.pieces.shapes {
-            placed.push(piece.place(&frames));
-            if !self.piece_is_clear(&placed[placed.len() - 1], rules) {
-                return false;
+            let piece = piece.place(&frames);
+            if let Some(obstacle) = self.obstacle_in_the_way(&piece, rules) {
+                return Some((piece.body, Other::Obstacle(obstacle)));
             }
+            placed.push(piece);
         }
-        self.clear_of_itself(&placed, rules)
+        self.bodies_that_meet(&placed, rules)
     }
 
     /// The pair that has least to spare at these positions (rad); `None` where the rules ignore everything.
@@ -55,21 +61,27 @@ impl Checker<'_> {
         }
     }
 
-    fn piece_is_clear(&self, piece: &Placed, rules: &Rules) -> bool {
-        let things = self.world.obstacles().iter().zip(self.world.bounds()).enumerate();
-        things.map(|(k, thing)| (rules.of(piece.body, k), thing)).all(|(asked_m, (obstacle, bounds))| {
-            asked_m == IGNORED
+    fn obstacle_in_the_way(&self, piece: &Placed, rules: &Rules) -> Option<usize> {
+        let mut things = self.world.obstacles().iter().zip(self.world.bounds()).enumerate();
+        let in_the_way = things.find(|(k, (obstacle, bounds))| {
+            let asked_m = rules.of(piece.body, *k);
+            let clear = asked_m == IGNORED
                 || piece.ball.clear_by(bounds, asked_m)
                 || ball_is_clear(&piece.ball, &obstacle.solid, asked_m)
-                || clear_by(&piece.solid, &obstacle.solid, asked_m)
-        })
+                || clear_by(&piece.solid, &obstacle.solid, asked_m);
+            !clear
+        });
+        in_the_way.map(|(k, _)| k)
     }
 
-    fn clear_of_itself(&self, placed: &[Placed], rules: &Rules) -> bool {
+    fn bodies_that_meet(&self, placed: &[Placed], rules: &Rules) -> Option<(usize, Other)> {
         let asked_m = rules.self_clearance_m;
-        self.pieces.pairs.iter().map(|&(i, j)| (&placed[i], &placed[j])).all(|(a, b)| {
-            asked_m == IGNORED || a.ball.clear_by(&b.ball, asked_m) || clear_by(&a.solid, &b.solid, asked_m)
-        })
+        if asked_m == IGNORED {
+            return None;
+        }
+        let mut pairs = self.pieces.pairs.iter().map(|&(i, j)| (&placed[i], &placed[j]));
+        let meet = pairs.find(|(a, b)| !a.ball.clear_by(&b.ball, asked_m) && !clear_by(&a.solid, &b.solid, asked_m))?;
+        Some((meet.0.body, Other::Body(meet.1.body)))
     }
 
     fn world_pairs<'p>(&'p self, placed: &'p [Placed], rules: &'p Rules) -> impl Iterator<Item = Pair<'p>> {

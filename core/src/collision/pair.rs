@@ -4,6 +4,9 @@ use super::oriented_box::OrientedBox;
 use super::solid::{Capsule, HalfSpace, Solid};
 use super::{boxes, capsules, segment_box};
 
+/// A segment that is no farther from a box than this meets it: rounding must not hide how deep.
+const ROUNDING_M: f64 = 1e-12;
+
 /// Metres between two solids; below 0 the least shift that parts them. Two half-spaces are not asked for: -infinity.
 pub fn signed_distance_m(a: &Solid, b: &Solid) -> f64 {
     match (a, b) {
@@ -38,7 +41,7 @@ fn capsule_box_m(capsule: &Capsule, solid: &OrientedBox) -> f64 {
     let from = solid.base_from_box.apply_inverse(&capsule.from);
     let to = solid.base_from_box.apply_inverse(&capsule.to);
     let distance_m = segment_box::distance_m(&from, &to, &solid.half_m);
-    if distance_m > 0.0 {
+    if distance_m > ROUNDING_M {
         return distance_m - capsule.radius_m;
     }
     -segment_box::depth_m(&from, &to, &solid.half_m) - capsule.radius_m

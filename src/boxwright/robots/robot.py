@@ -68,7 +68,7 @@ class Robot:
 
     @property
     def reach_m(self) -> float:
-        """How far from joint 1's axis the flange comes, within the limits: one joint after another turned for the best."""
+        """How far the flange comes from joint 1's axis within limits: one joint after another turned for the best."""
         flange_from_tool = rigid(np.eye(3), self.file.gripper.tool_point_m)
         best, reach_m = self.ready_rad.copy(), 0.0
         while True:
