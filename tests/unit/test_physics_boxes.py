@@ -171,7 +171,10 @@ def test_creases_are_data_with_sources_and_assumptions() -> None:
     assert moments == sorted(moments)
     assert returns == sorted(returns)
     ordinary = crease_class("ordinary")
-    assert ordinary.stiffness_n_m_per_rad(0.5) * math.radians(ordinary.return_deg) == pytest.approx(0.3)
+    assert ordinary.moment_n_m(0.5, 0.004) == pytest.approx(0.3)
+    assert ordinary.moment_n_m(0.5, 0.002) == pytest.approx(0.15)
+    turn_rad = math.radians(ordinary.return_deg)
+    assert ordinary.stiffness_n_m_per_rad(0.5, 0.004) * turn_rad == pytest.approx(0.3)
     with pytest.raises(ValueError, match="must be one of pre_broken, ordinary, stiff"):
         crease_class("soft")
 
