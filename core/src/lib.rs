@@ -2,7 +2,7 @@
 //!
 //! Layers, lowest first; each may use those above it in this list and no other:
 //! `error`, `geometry`, `cloud`, `perception`, `free_space`, `model`, `inference`, `body`, `fit`, `pipeline`,
-//! `arm`, `collision`.
+//! `arm`, `collision`, `planning`.
 //! The paper's equations are numbered in `docs/maths.md`; the code cites the number.
 
 pub mod arm;
@@ -17,3 +17,4 @@ pub mod inference;
 pub mod model;
 pub mod perception;
 pub mod pipeline;
+pub mod planning;

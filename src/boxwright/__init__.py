@@ -15,6 +15,7 @@ y down, z forward). Names are loaded when they are first used.
 - `Model`: panels (4 corners, metres), hinges (origin, axis, position in radians: 0 closed, growing as a flap opens).
 - `load_model(path) -> Model`: a model.json.
 - `save_urdf`, `save_mjcf`, `save_sdf(object, path, ...)`: one object of a model as URDF, MJCF or SDF.
+- `plan_closing(model, robot, base_from_input, ...) -> Plan`: motions that close a box: metres, radians, seconds.
 - `simulate(plan, model, truth, ...) -> Run`: a plan in physics: which flaps close and stay closed; needs the extra
   `physics`.
 - `evaluate(folder, ...) -> Summary`: figures of merit on a labelled set: per cent, degrees, millimetres.
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from boxwright.io.models import load_model
     from boxwright.kinematics import save_mjcf, save_sdf, save_urdf
     from boxwright.pipeline import infer
+    from boxwright.planning import plan_closing
     from boxwright.scoring import evaluate
     from boxwright.segmentation import segment
     from boxwright.simulation.physics import simulate
@@ -44,6 +46,7 @@ __all__ = [
     "evaluate",
     "infer",
     "load_model",
+    "plan_closing",
     "read_cloud",
     "save_mjcf",
     "save_sdf",
@@ -58,6 +61,7 @@ _HOMES = {
     "evaluate": "boxwright.scoring",
     "infer": "boxwright.pipeline",
     "load_model": "boxwright.io.models",
+    "plan_closing": "boxwright.planning",
     "read_cloud": "boxwright.io.clouds",
     "save_mjcf": "boxwright.kinematics",
     "save_sdf": "boxwright.kinematics",

@@ -310,3 +310,109 @@ class Problem:
 
     def exhaustive(self, weights: NDArray[np.float64]) -> tuple[NDArray[np.int64], float, int]:
         """The best of all assignments (parts,), its score, and how many were tried: small problems only."""
+
+# --- arm ---
+
+class Arm:
+    """An arm with its gripper, from the TOML text of its file: metres, radians, the base's frame.
+
+    Raises ValueError naming line or key.
+    """
+
+    def __init__(self, toml_text: str) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def joint_names(self) -> list[str]: ...
+    @property
+    def body_names(self) -> list[str]:
+        """The base, the links, the gripper and the fingers."""
+
+    @property
+    def limits(self) -> NDArray[np.float64]:
+        """(axes, 2) rad: lower and upper."""
+
+    @property
+    def ready(self) -> NDArray[np.float64]:
+        """(axes,) rad."""
+
+    @property
+    def closed_form(self) -> bool:
+        """Whether the inverse is a closed form."""
+
+    @property
+    def parent_from_joint(self) -> NDArray[np.float64]:
+        """(axes, 4, 4): each joint at position 0 on the link before it."""
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """(axes, 3) unit vectors in each joint's frame."""
+
+    @property
+    def last_link_from_flange(self) -> NDArray[np.float64]:
+        """(4, 4)."""
+
+    def forward(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """base_from_tool (N, 4, 4) at positions (N, axes)."""
+
+    def link_frames(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(axes + 2, 4, 4): the base, each link and the flange at positions (axes,)."""
+
+    def jacobian(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(6, axes): the tool's m/s, then rad/s, for each rad/s of a joint."""
+
+    def inverse(
+        self, base_from_tool: NDArray[np.float64], near: NDArray[np.float64] | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.uint8], NDArray[np.bool_]]:
+        """Positions (K, axes) within limits that reach a pose (4, 4), branch (K,), near which singularity (K, 3)."""
+
+# --- collision ---
+
+class World:
+    """Solids in the base's frame, metres: boxes, then capsules, then planes below which all is solid."""
+
+    def __init__(
+        self,
+        boxes: list[tuple[str, NDArray[np.float64], tuple[float, float, float]]] = ...,
+        capsules: list[tuple[str, tuple[float, float, float], tuple[float, float, float], float]] = ...,
+        planes: list[tuple[str, tuple[float, float, float], float]] = ...,
+    ) -> None:
+        """(name, base_from_box (4, 4), sizes), (name, from, to, radius), (name, unit normal, distance)."""
+
+    @property
+    def names(self) -> list[str]: ...
+    def distance_m(self, a: int, b: int) -> float:
+        """Signed, between two things by their places in `names`; below 0 the least shift that parts them."""
+
+class Clearance:
+    """Whether an arm is far enough from a world and from itself; `ignored` are pairs (body, thing)."""
+
+    def __init__(
+        self,
+        arm: Arm,
+        world: World,
+        clearance_m: float,
+        opening_m: float,
+        ignored: list[tuple[str, str]] = ...,
+    ) -> None: ...
+    def is_clear(self, positions: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(N,) at positions (N, axes)."""
+
+    def nearest(self, positions: NDArray[np.float64]) -> tuple[str, str, float] | None:
+        """The pair with least to spare at positions (axes,): a body, the other's name, their signed distance."""
+
+# --- planning ---
+
+def plan_closing(robot: str, request: str) -> str:
+    """The text of a robot's file and a request as JSON (`core::planning::Request`); the motion as JSON."""
+
+def feasible_flaps(robot: str, request: str) -> list[tuple[str, bool]]:
+    """For each open flap, by name: can brute force close it by itself, all others as they are? Takes minutes."""
+
+def time_way(
+    way: NDArray[np.float64], speeds: list[float], accelerations: list[float], period_s: float
+) -> tuple[list[float], list[list[float]], list[list[float]]]:
+    """The fastest motion along postures (N, axes), rad, from rest to rest: times (M,), positions, velocities (M, axes).
+
+    Raises ValueError where shapes do not fit or nothing moves.
+    """

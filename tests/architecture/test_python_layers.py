@@ -14,8 +14,8 @@ LAYERS = (
     ("types", "parallel", "_core"),
     ("io",),
     ("perception", "models", "kinematics"),
-    ("evaluation",),
-    ("learning",),
+    ("evaluation", "robots"),
+    ("learning", "planning"),
     ("segmentation",),
     ("pipeline",),
     ("answers", "scoring", "labelling", "runner_up"),
@@ -32,13 +32,14 @@ ONLY_IN = {
     "typer": {"cli"},
     "rich": {"cli"},
     "matplotlib": {"figures"},
+    "mcap_ros2": {"io"},
     "mujoco": {"simulation"},
     "PIL": {"simulation"},
     "scipy": set(),
 }
 """Rooms that may import what is slow to import or an extra; `infer` needs numpy alone."""
 
-MODULE_OF = {"pyyaml": "yaml", "pillow": "PIL"}
+MODULE_OF = {"mcap-ros2-support": "mcap_ros2", "pyyaml": "yaml", "pillow": "PIL"}
 
 RANK = {room: rank for rank, rooms in enumerate(LAYERS) for room in rooms}
 

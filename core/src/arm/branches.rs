@@ -6,7 +6,6 @@ use arrayvec::ArrayVec;
 use nalgebra::Matrix3;
 
 use super::opw::Opw;
-use crate::geometry::rigid::turn;
 use crate::geometry::{Rigid, Vec3};
 
 /// Near which singularities a solution stands: there, small motions of the tool want large ones of joints.
@@ -58,7 +57,7 @@ impl Opw {
             for (e, (theta2, theta3, bend)) in
                 self.elbows(radial_m - self.a1_m, wrist.z - self.c1_m).into_iter().enumerate()
             {
-                let arm = turn(&Vec3::z(), theta1) * turn(&Vec3::y(), theta2 + theta3);
+                let arm = forearm(theta1, theta2 + theta3);
                 for (w, theta456) in wrists(&arm.tr_mul(rotation)).into_iter().enumerate() {
                     let theta = [theta1, theta2, theta3, theta456[0], theta456[1], theta456[2]];
                     found.push(Branch {
@@ -106,14 +105,21 @@ impl Opw {
     }
 }
 
+/// base_from_forearm: Rz(theta1) Ry(theta23).
+fn forearm(theta1: f64, theta23: f64) -> Matrix3<f64> {
+    let ((s1, c1), (s, c)) = (theta1.sin_cos(), theta23.sin_cos());
+    Matrix3::new(c1 * c, -s1, c1 * s, s1 * c, c1, s1 * s, -s, 0.0, c)
+}
+
 /// Both ways of a wrist, joints 4 to 6, to turn by `forearm_from_flange` = Rz Ry Rz.
 fn wrists(forearm_from_flange: &Matrix3<f64>) -> [[f64; 3]; 2] {
     let m = forearm_from_flange;
-    let in_line = m.m13.hypot(m.m23) < IN_LINE;
-    let theta4 = if in_line { 0.0 } else { m.m23.atan2(m.m13) };
-    [theta4, theta4 + PI].map(|theta4| {
+    let aside = m.m13.hypot(m.m23);
+    let (sin, cos) = if aside < IN_LINE { (0.0, 1.0) } else { (m.m23 / aside, m.m13 / aside) };
+    [(sin, cos), (-sin, -cos)].map(|(sin, cos)| {
         // The rest is read after joint 4 is undone, so that it makes up for joint 4 near the singularity.
-        let rest = turn(&Vec3::z(), theta4).tr_mul(m);
-        [theta4, rest.m13.atan2(rest.m33), rest.m21.atan2(rest.m22)]
+        let theta5 = (cos * m.m13 + sin * m.m23).atan2(m.m33);
+        let theta6 = (cos * m.m21 - sin * m.m11).atan2(cos * m.m22 - sin * m.m12);
+        [sin.atan2(cos), theta5, theta6]
     })
 }

@@ -20,6 +20,8 @@ const AXES: [usize; 2] = [6, 7];
 const WIDEST_DEG: f64 = 360.0;
 /// Axes shorter than this have no direction.
 const LEAST_AXIS: f64 = 1e-6;
+/// Shapes of all links: with the gripper's they must fit into what collision places on the stack.
+const MOST_SHAPES: usize = 40;
 const CLOSED_FORM_BRANCHES: usize = 8;
 
 pub fn arm(file: RobotFile) -> Result<Arm> {
@@ -41,6 +43,7 @@ pub fn arm(file: RobotFile) -> Result<Arm> {
         links,
     };
     check_wraps(&arm)?;
+    check_pieces(&arm)?;
     Ok(arm)
 }
 
@@ -55,6 +58,13 @@ fn check_head(file: &RobotFile) -> Result<()> {
     if file.version != VERSION {
         return Err(at("version", format!("is {}", file.version)).mend(format!("this program reads {VERSION}")));
     }
+    let joints = file.joints.iter().map(|joint| joint.name.as_str());
+    let names = joints.chain(file.links.iter().map(|link| link.name.as_str())).chain([file.name.as_str()]);
+    if let Some(name) = names.into_iter().find(|name| !is_name(name)) {
+        return Err(
+            at("name", format!("is \"{name}\"")).mend("a name is a letter, then letters, digits and underscores")
+        );
+    }
     let axes = file.joints.len();
     if !AXES.contains(&axes) {
         return Err(at("joint", format!("there are {axes}")).mend("an arm has 6 or 7 revolute joints"));
@@ -63,6 +73,11 @@ fn check_head(file: &RobotFile) -> Result<()> {
         return Err(at("opw", format!("there are {axes} joints")).mend("an ortho-parallel arm has 6; leave opw out"));
     }
     Ok(())
+}
+
+/// Safe as it stands in URDF, MJCF, ROS and file names.
+fn is_name(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
 fn finite(key: &str, what: &str, values: &[f64]) -> Result<()> {
@@ -235,6 +250,16 @@ fn check_wraps(arm: &Arm) -> Result<()> {
     if arm.opw.is_some() && wraps * CLOSED_FORM_BRANCHES > MAX_SOLUTIONS {
         let problem = format!("the limits let one tool pose be reached in {} ways", wraps * CLOSED_FORM_BRANCHES);
         return Err(at("joint", problem).mend(format!("narrow limits_deg until they are {MAX_SOLUTIONS} at most")));
+    }
+    Ok(())
+}
+
+fn check_pieces(arm: &Arm) -> Result<()> {
+    let pieces: usize = arm.links.iter().map(|link| link.shapes.len()).sum();
+    if pieces > MOST_SHAPES {
+        return Err(
+            at("link", format!("there are {pieces} shapes")).mend(format!("{MOST_SHAPES} at most: draw more coarsely"))
+        );
     }
     Ok(())
 }

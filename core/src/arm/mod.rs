@@ -26,6 +26,3 @@ pub use numeric::NumericSettings;
 pub use opw::Opw;
 pub use positions::{JointPositions, MAX_AXES};
 pub use shape::Shape;
-
-#[cfg(test)]
-mod tests;

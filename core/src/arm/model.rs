@@ -83,6 +83,14 @@ impl Arm {
         }
     }
 
+    /// # Errors
+    /// Names the bodies that there are.
+    pub fn body_index(&self, name: &str) -> Result<usize> {
+        let names: Vec<&str> = (0..self.body_count()).map(|body| self.body_name(body)).collect();
+        let found = names.iter().position(|&other| other == name);
+        found.ok_or_else(|| InputError::new(format!("no body {name}")).mend(format!("bodies are {}", names.join(", "))))
+    }
+
     /// The first joint that is outside its limits, and by how much, rad.
     pub fn limit_violation(&self, positions: &[f64]) -> Option<(usize, f64)> {
         let beyond = |joint: &Joint, q: f64| (joint.lower_rad - q).max(q - joint.upper_rad);

@@ -36,8 +36,13 @@ pub fn widest_gap_m(a: &OrientedBox, b: &OrientedBox) -> f64 {
 }
 
 pub fn signed_distance_m(a: &OrientedBox, b: &OrientedBox) -> f64 {
+    distance_unless_above_m(a, b, f64::INFINITY)
+}
+
+/// The signed distance where it is below `bound_m`, else something that is no less.
+pub fn distance_unless_above_m(a: &OrientedBox, b: &OrientedBox, bound_m: f64) -> f64 {
     let gap = widest_gap_m(a, b);
-    if gap <= 0.0 {
+    if gap <= 0.0 || gap >= bound_m {
         return gap;
     }
     edges_distance_m(a, b).min(edges_distance_m(b, a))
@@ -55,5 +60,8 @@ pub fn clear_by(a: &OrientedBox, b: &OrientedBox, clearance_m: f64) -> bool {
 /// From the nearest of a's edges to the box b. Two boxes that are apart are nearest at an edge of one of them.
 fn edges_distance_m(a: &OrientedBox, b: &OrientedBox) -> f64 {
     let corners = a.corners().map(|corner| b.base_from_box.apply_inverse(&corner));
-    EDGES.iter().map(|&(i, j)| segment_box::distance_m(&corners[i], &corners[j], &b.half_m)).fold(f64::INFINITY, f64::min)
+    EDGES
+        .iter()
+        .map(|&(i, j)| segment_box::distance_m(&corners[i], &corners[j], &b.half_m))
+        .fold(f64::INFINITY, f64::min)
 }

@@ -1,6 +1,8 @@
+use arrayvec::ArrayVec;
+
 use super::nearest::{Nearest, Other};
-use super::pair::{clear_by, signed_distance_m};
-use super::pieces::{ArmPieces, Placed};
+use super::pair::{clear_by, distance_unless_above_m};
+use super::pieces::{ArmPieces, Placed, MAX_PIECES};
 use super::rules::{Rules, IGNORED};
 use super::solid::Solid;
 use super::world::{Ball, World};
@@ -17,31 +19,33 @@ pub struct Checker<'a> {
 impl Checker<'_> {
     /// Whether everything is at least as far apart as the rules say, at these positions (rad). The quick question.
     pub fn is_clear(&self, positions: &[f64], rules: &Rules) -> bool {
-        let placed = self.pieces.place(self.arm, positions);
-        placed.iter().all(|piece| self.piece_is_clear(piece, rules)) && self.clear_of_itself(&placed, rules)
+        let frames = self.arm.link_frames(positions);
+        let mut placed = ArrayVec::<Placed, MAX_PIECES>::new();
+        for piece in &self.pieces.shapes {
+            placed.push(piece.place(&frames));
+            if !self.piece_is_clear(&placed[placed.len() - 1], rules) {
+                return false;
+            }
+        }
+        self.clear_of_itself(&placed, rules)
     }
 
     /// The pair that has least to spare at these positions (rad); `None` where the rules ignore everything.
     pub fn nearest(&self, positions: &[f64], rules: &Rules) -> Option<Nearest> {
         let placed = self.pieces.place(self.arm, positions);
-        let mut nearest = None;
-        for piece in &placed {
-            for (k, (obstacle, bound)) in self.world.obstacles().iter().zip(self.world.bounds()).enumerate() {
-                let asked_m = rules.of(piece.body, k);
-                if may_be_nearer(&nearest, piece, bound, asked_m) {
-                    let distance_m = signed_distance_m(&piece.solid, &obstacle.solid);
-                    keep_nearer(&mut nearest, piece.body, Other::Obstacle(k), distance_m, asked_m);
+        let pairs = || self.world_pairs(&placed, rules).chain(self.own_pairs(&placed, rules));
+        // The pair that is nearest by its bounds is measured first: few others then can be nearer.
+        let first = pairs().min_by(|a, b| a.least_spare_m.total_cmp(&b.least_spare_m))?;
+        let mut nearest = first.measured(f64::INFINITY);
+        for pair in pairs() {
+            if pair.least_spare_m < nearest.spare_m {
+                let measured = pair.measured(nearest.spare_m);
+                if measured.spare_m < nearest.spare_m {
+                    nearest = measured;
                 }
             }
         }
-        for &(i, j) in &self.pieces.pairs {
-            let (a, b) = (&placed[i], &placed[j]);
-            if may_be_nearer(&nearest, a, &b.ball, rules.self_clearance_m) {
-                let distance_m = signed_distance_m(&a.solid, &b.solid);
-                keep_nearer(&mut nearest, a.body, Other::Body(b.body), distance_m, rules.self_clearance_m);
-            }
-        }
-        nearest
+        Some(nearest)
     }
 
     pub fn other_name(&self, other: Other) -> &str {
@@ -53,9 +57,9 @@ impl Checker<'_> {
 
     fn piece_is_clear(&self, piece: &Placed, rules: &Rules) -> bool {
         let things = self.world.obstacles().iter().zip(self.world.bounds()).enumerate();
-        things.map(|(k, thing)| (rules.of(piece.body, k), thing)).all(|(asked_m, (obstacle, bound))| {
+        things.map(|(k, thing)| (rules.of(piece.body, k), thing)).all(|(asked_m, (obstacle, bounds))| {
             asked_m == IGNORED
-                || gap_m(&piece.ball, bound) >= asked_m
+                || piece.ball.clear_by(bounds, asked_m)
                 || ball_is_clear(&piece.ball, &obstacle.solid, asked_m)
                 || clear_by(&piece.solid, &obstacle.solid, asked_m)
         })
@@ -64,30 +68,60 @@ impl Checker<'_> {
     fn clear_of_itself(&self, placed: &[Placed], rules: &Rules) -> bool {
         let asked_m = rules.self_clearance_m;
         self.pieces.pairs.iter().map(|&(i, j)| (&placed[i], &placed[j])).all(|(a, b)| {
-            asked_m == IGNORED || gap_m(&a.ball, &b.ball) >= asked_m || clear_by(&a.solid, &b.solid, asked_m)
+            asked_m == IGNORED || a.ball.clear_by(&b.ball, asked_m) || clear_by(&a.solid, &b.solid, asked_m)
+        })
+    }
+
+    fn world_pairs<'p>(&'p self, placed: &'p [Placed], rules: &'p Rules) -> impl Iterator<Item = Pair<'p>> {
+        let things = move || self.world.obstacles().iter().zip(self.world.bounds()).enumerate();
+        let all = placed.iter().flat_map(move |piece| things().map(move |thing| (piece, thing)));
+        all.filter_map(move |(piece, (k, (obstacle, bounds)))| {
+            let asked_m = rules.of(piece.body, k);
+            (asked_m != IGNORED).then(|| Pair {
+                piece,
+                solid: &obstacle.solid,
+                other: Other::Obstacle(k),
+                asked_m,
+                least_spare_m: piece.ball.least_gap_m(&obstacle.solid, bounds) - asked_m,
+            })
+        })
+    }
+
+    fn own_pairs<'p>(&'p self, placed: &'p [Placed], rules: &'p Rules) -> impl Iterator<Item = Pair<'p>> {
+        let asked_m = rules.self_clearance_m;
+        let pairs = self.pieces.pairs.iter().filter(move |_| asked_m != IGNORED);
+        pairs.map(move |&(i, j)| Pair {
+            piece: &placed[i],
+            solid: &placed[j].solid,
+            other: Other::Body(placed[j].body),
+            asked_m,
+            least_spare_m: placed[i].ball.least_gap_m(&placed[j].solid, &placed[j].ball) - asked_m,
         })
     }
 }
 
-fn gap_m(a: &Ball, b: &Ball) -> f64 {
-    (a.centre - b.centre).norm() - a.radius_m - b.radius_m
+/// Two things that are held against each other, and what they have to spare at the least.
+struct Pair<'a> {
+    piece: &'a Placed,
+    solid: &'a Solid,
+    other: Other,
+    asked_m: f64,
+    least_spare_m: f64,
+}
+
+impl Pair<'_> {
+    /// Exact where it is less than `best_spare_m`, else no less than that.
+    fn measured(&self, best_spare_m: f64) -> Nearest {
+        let distance_m = distance_unless_above_m(&self.piece.solid, self.solid, best_spare_m + self.asked_m);
+        Nearest { body: self.piece.body, other: self.other, distance_m, spare_m: distance_m - self.asked_m }
+    }
 }
 
 /// A panel's own ball is far wider than the panel: the piece's ball against the box tells more, and costs little.
 fn ball_is_clear(ball: &Ball, solid: &Solid, asked_m: f64) -> bool {
+    let reach_m = ball.radius_m + asked_m;
     match solid {
-        Solid::Box(thing) => thing.distance_to_point_m(&ball.centre) - ball.radius_m >= asked_m,
+        Solid::Box(thing) => reach_m <= 0.0 || thing.distance_to_point_sq_m2(&ball.centre) >= reach_m * reach_m,
         _ => false,
-    }
-}
-
-fn may_be_nearer(nearest: &Option<Nearest>, piece: &Placed, bound: &Ball, asked_m: f64) -> bool {
-    asked_m != IGNORED && nearest.is_none_or(|nearest| gap_m(&piece.ball, bound) - asked_m < nearest.spare_m)
-}
-
-fn keep_nearer(nearest: &mut Option<Nearest>, body: usize, other: Other, distance_m: f64, asked_m: f64) {
-    let spare_m = distance_m - asked_m;
-    if nearest.is_none_or(|nearest| spare_m < nearest.spare_m) {
-        *nearest = Some(Nearest { body, other, distance_m, spare_m });
     }
 }

@@ -21,6 +21,3 @@ pub use pieces::{ArmPieces, Placed, MAX_PIECES};
 pub use rules::{Rules, IGNORED};
 pub use solid::{Capsule, HalfSpace, Solid};
 pub use world::{Obstacle, World};
-
-#[cfg(test)]
-mod tests;

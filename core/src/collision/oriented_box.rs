@@ -37,10 +37,10 @@ impl OrientedBox {
         })
     }
 
-    /// How far a point is from the box, 0 inside.
-    pub fn distance_to_point_m(&self, point: &Vec3) -> f64 {
+    /// How far a point is from the box, squared; 0 inside.
+    pub fn distance_to_point_sq_m2(&self, point: &Vec3) -> f64 {
         let seen = self.base_from_box.apply_inverse(point);
-        (seen.abs() - self.half_m).sup(&Vec3::zeros()).norm()
+        (seen.abs() - self.half_m).sup(&Vec3::zeros()).norm_squared()
     }
 
     /// Half the box's extent along a unit direction.
@@ -50,8 +50,5 @@ impl OrientedBox {
 }
 
 /// Which corners (bits: x, y, z) each of a box's twelve edges joins.
-pub const EDGES: [(usize, usize); 12] = [
-    (0, 1), (2, 3), (4, 5), (6, 7),
-    (0, 2), (1, 3), (4, 6), (5, 7),
-    (0, 4), (1, 5), (2, 6), (3, 7),
-];
+pub const EDGES: [(usize, usize); 12] =
+    [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)];

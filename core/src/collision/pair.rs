@@ -1,8 +1,8 @@
 //! Any two solids: one function for each pair of kinds.
 
+use super::oriented_box::OrientedBox;
 use super::solid::{Capsule, HalfSpace, Solid};
 use super::{boxes, capsules, segment_box};
-use super::oriented_box::OrientedBox;
 
 /// Metres between two solids; below 0 the least shift that parts them. Two half-spaces are not asked for: -infinity.
 pub fn signed_distance_m(a: &Solid, b: &Solid) -> f64 {
@@ -15,6 +15,14 @@ pub fn signed_distance_m(a: &Solid, b: &Solid) -> f64 {
         }
         (Solid::HalfSpace(plane), Solid::Box(a)) | (Solid::Box(a), Solid::HalfSpace(plane)) => box_above_m(a, plane),
         (Solid::HalfSpace(_), Solid::HalfSpace(_)) => f64::NEG_INFINITY,
+    }
+}
+
+/// The signed distance where it is below `bound_m`, else something that is no less than that; cheaper than the distance.
+pub fn distance_unless_above_m(a: &Solid, b: &Solid, bound_m: f64) -> f64 {
+    match (a, b) {
+        (Solid::Box(a), Solid::Box(b)) => boxes::distance_unless_above_m(a, b, bound_m),
+        _ => signed_distance_m(a, b),
     }
 }
 

@@ -17,7 +17,11 @@ impl Rules {
     /// The same clearance everywhere, to itself too.
     pub fn new(arm: &Arm, world: &World, clearance_m: f64) -> Self {
         let bodies = arm.body_count();
-        Self { self_clearance_m: clearance_m, bodies, clearances_m: vec![clearance_m; bodies * world.obstacles().len()] }
+        Self {
+            self_clearance_m: clearance_m,
+            bodies,
+            clearances_m: vec![clearance_m; bodies * world.obstacles().len()],
+        }
     }
 
     /// One body and one thing: a finger and the flap that it pushes get 0, or a little below for rounding.

@@ -10,11 +10,12 @@ pub fn distance_m(from: &Vec3, to: &Vec3, half_m: &Vec3) -> f64 {
     let along = to - from;
     let outside = |t: f64| {
         let point = from + along * t;
-        point - Vec3::new(
-            point.x.clamp(-half_m.x, half_m.x),
-            point.y.clamp(-half_m.y, half_m.y),
-            point.z.clamp(-half_m.z, half_m.z),
-        )
+        point
+            - Vec3::new(
+                point.x.clamp(-half_m.x, half_m.x),
+                point.y.clamp(-half_m.y, half_m.y),
+                point.z.clamp(-half_m.z, half_m.z),
+            )
     };
     // The squared distance is convex in t and a parabola between the crossings of the six faces' planes: its slope, which only
     // grows, is followed to where it is zero.

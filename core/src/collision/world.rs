@@ -22,6 +22,24 @@ pub struct Ball {
     pub radius_m: f64,
 }
 
+impl Ball {
+    /// Whether another ball is at least so far away.
+    pub(super) fn clear_by(&self, other: &Self, asked_m: f64) -> bool {
+        let reach_m = self.radius_m + other.radius_m + asked_m;
+        reach_m <= 0.0 || (self.centre - other.centre).norm_squared() >= reach_m * reach_m
+    }
+
+    /// How far a solid is from the ball at the least; below 0 it may be anything.
+    pub(super) fn least_gap_m(&self, solid: &Solid, bounds: &Self) -> f64 {
+        let centre_m = match solid {
+            Solid::Box(b) => b.distance_to_point_sq_m2(&self.centre).sqrt(),
+            Solid::Capsule(_) => (self.centre - bounds.centre).norm() - bounds.radius_m,
+            Solid::HalfSpace(h) => h.normal.dot(&self.centre) - h.distance_m,
+        };
+        centre_m - self.radius_m
+    }
+}
+
 impl World {
     pub fn new(obstacles: Vec<Obstacle>) -> Self {
         let bounds = obstacles.iter().map(|obstacle| ball(&obstacle.solid)).collect();
@@ -54,10 +72,12 @@ impl World {
     }
 }
 
-pub fn ball(solid: &Solid) -> Ball {
+fn ball(solid: &Solid) -> Ball {
     match solid {
         Solid::Box(b) => Ball { centre: b.centre(), radius_m: b.half_m.norm() },
-        Solid::Capsule(c) => Ball { centre: (c.from + c.to) / 2.0, radius_m: (c.to - c.from).norm() / 2.0 + c.radius_m },
+        Solid::Capsule(c) => {
+            Ball { centre: (c.from + c.to) / 2.0, radius_m: (c.to - c.from).norm() / 2.0 + c.radius_m }
+        }
         Solid::HalfSpace(_) => Ball { centre: Vec3::zeros(), radius_m: f64::INFINITY },
     }
 }
