@@ -49,7 +49,7 @@ def plan_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
         version=1,
         robot="viper_s850",
         base_from_input=tuple(map(tuple, BASE_FROM_INPUT.tolist())),  # type: ignore[arg-type]
-        joint_names=tuple(joint.name for joint in arm.robot.joints),
+        joint_names=tuple(joint.name for joint in arm.robot.joint),
         order=("flap_1",),
         flaps={"flap_1": FlapOutcome(status="planned", reason=None, seconds=0.0)},
         segments=tuple(segments),
