@@ -6,6 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from boxwright.robots import load_robot as core_robot
+from boxwright.robots import robot_names
 from boxwright.simulation.physics import Arm, PhysicsSettings, crease_class, load_robot, simulate_closing, true_box
 from boxwright.simulation.physics.commands import course_of, held
 from boxwright.simulation.physics.stage import Stage
@@ -41,8 +43,8 @@ def test_the_flange_is_where_the_data_sheet_s_lengths_put_it(arm: Arm) -> None:
     world = beside_a_box(arm, np.zeros(6))
     data, rng = mujoco.MjData(world.model), np.random.default_rng(1)
     for _ in range(50):
-        joints = rng.uniform(*np.radians([joint.limits_deg for joint in arm.robot.joints]).T)
-        data.qpos[[world.model.joint(joint.name).qposadr[0] for joint in arm.robot.joints]] = joints
+        joints = rng.uniform(*np.radians([joint.limits_deg for joint in arm.robot.joint]).T)
+        data.qpos[[world.model.joint(joint.name).qposadr[0] for joint in arm.robot.joint]] = joints
         mujoco.mj_kinematics(world.model, data)
         wanted = np.eye(4)
         for (a, alpha_deg, d, offset_deg), q in zip(table, joints, strict=True):
@@ -51,6 +53,30 @@ def test_the_flange_is_where_the_data_sheet_s_lengths_put_it(arm: Arm) -> None:
             wanted = wanted @ [[c, -s * ca, s * sa, a * c], [s, c * ca, -c * sa, a * s], [0, sa, ca, d], [0, 0, 0, 1]]
         np.testing.assert_allclose(data.body("gripper").xpos, wanted[:3, 3], atol=1e-12)
         np.testing.assert_allclose(data.body("gripper").xmat.reshape(3, 3)[:, 2], wanted[:3, 2], atol=1e-12)
+
+
+@pytest.mark.parametrize("name", robot_names())
+def test_every_shipped_robot_stands_and_is_where_the_core_has_it(name: str) -> None:
+    """Planning's kinematics are the core's; physics works out by itself where a robot's joints are."""
+    robot, core = Arm(load_robot(name)), core_robot(name)
+    ready = np.radians(robot.robot.ready_deg)
+    world = beside_a_box(robot, ready)
+    stage = Stage(world, BOX)
+    stage.follow(held(ready, 0.2, 0.001))
+    assert stage.max_joint_error_rad < 1e-3
+    assert not stage.watch.unwanted()
+    data, rng = mujoco.MjData(world.model), np.random.default_rng(4)
+    at = [world.model.joint(joint.name).qposadr[0] for joint in robot.robot.joint]
+    for _ in range(20):
+        joints = rng.uniform(*np.radians([joint.limits_deg for joint in robot.robot.joint]).T)
+        data.qpos[at] = joints
+        mujoco.mj_kinematics(world.model, data)
+        gripper = data.body("gripper")
+        turn = gripper.xmat.reshape(3, 3)
+        tool = gripper.xpos + turn @ np.array(robot.robot.gripper.tool_point_m)
+        wanted = core.forward(joints)
+        np.testing.assert_allclose(tool, wanted[:3, 3], atol=1e-9)
+        np.testing.assert_allclose(turn, wanted[:3, :3], atol=1e-9)
 
 
 def test_fingers_open_as_far_as_told_and_reach_the_tool_point(arm: Arm) -> None:
@@ -102,7 +128,7 @@ def test_the_arm_s_mjcf_reads_back_as_the_same_arm(arm: Arm) -> None:
     model = mujoco.MjModel.from_xml_string(arm.mjcf_text())
     world = beside_a_box(arm, np.zeros(6)).model
     here, there, rng = mujoco.MjData(model), mujoco.MjData(world), np.random.default_rng(2)
-    names = [joint.name for joint in arm.robot.joints]
+    names = [joint.name for joint in arm.robot.joint]
     assert [model.actuator(k).name for k in range(model.nu)] == [*names, "finger_left", "finger_right"]
     for _ in range(20):
         joints = rng.uniform(-1.0, 1.0, len(names))

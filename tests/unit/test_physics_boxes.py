@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import msgspec
 import mujoco
 import numpy as np
 import pytest
 
+from boxwright.io.truth import load_truth
 from boxwright.simulation.boxes import OpenBox
 from boxwright.simulation.clearance import free_flaps
 from boxwright.simulation.kinds import draw_box
@@ -54,6 +56,26 @@ def test_an_untouched_box_stands_still_and_keeps_its_flaps() -> None:
         assert np.degrees(np.abs(data.qpos[7:] - before[7:]).max(initial=0.0)) < 0.5
         assert stage.watch.max_penetration_m < 0.0002
     assert flaps > 40
+
+
+def test_the_labelled_boxes_stand_still(shared_dir: Path) -> None:
+    """Their truths tell no thickness and tilt some boxes on a book; the floor is where their own up says."""
+    counted = 0
+    for path in sorted((shared_dir / "data" / "labelled").glob("*.truth.json")):
+        truth = load_truth(path)
+        up = np.array(truth.up) / np.linalg.norm(truth.up)
+        along = np.cross(up, [0.0, 0.0, 1.0]) / np.linalg.norm(np.cross(up, [0.0, 0.0, 1.0]))
+        world_from_input = np.eye(4)
+        world_from_input[:3, :3] = [along, np.cross(up, along), up]
+        for k in range(len(truth.boxes)):
+            box = true_box(truth, k, world_from_input)
+            stage = Stage(build_world(box, crease_class("ordinary"), PhysicsSettings()), box)
+            before = stage.data.qpos.copy()
+            stage.follow(held(np.zeros(0), 0.2, 0.001))
+            assert np.abs(stage.data.qpos[:3] - before[:3]).max() < 0.001
+            assert np.degrees(np.abs(stage.data.qpos[7:] - before[7:]).max(initial=0.0)) < 0.5
+            counted += 1
+    assert counted == 16
 
 
 def test_boards_turn_as_the_generator_builds_them() -> None:
@@ -149,7 +171,10 @@ def test_creases_are_data_with_sources_and_assumptions() -> None:
     assert moments == sorted(moments)
     assert returns == sorted(returns)
     ordinary = crease_class("ordinary")
-    assert ordinary.stiffness_n_m_per_rad(0.5) * math.radians(ordinary.return_deg) == pytest.approx(0.3)
+    assert ordinary.moment_n_m(0.5, 0.004) == pytest.approx(0.3)
+    assert ordinary.moment_n_m(0.5, 0.002) == pytest.approx(0.15)
+    turn_rad = math.radians(ordinary.return_deg)
+    assert ordinary.stiffness_n_m_per_rad(0.5, 0.004) * turn_rad == pytest.approx(0.3)
     with pytest.raises(ValueError, match="must be one of pre_broken, ordinary, stiff"):
         crease_class("soft")
 

@@ -157,7 +157,7 @@ def test_courses_pass_through_the_samples_with_their_speeds() -> None:
         velocities=tuple((3.0 * t**2, -1.0) for t in times),
         gripper_opening_m=0.0,
     )
-    course, at = course_of(segment, 0.001), 0.001 * np.arange(1, 401)
+    course, at = course_of(segment, 0.001), 0.001 * np.arange(400)
     np.testing.assert_allclose(course.positions, np.column_stack([at**3, 1.0 - at]), atol=1e-12)
     np.testing.assert_allclose(course.velocities, np.column_stack([3.0 * at**2, np.full(400, -1.0)]), atol=1e-10)
     np.testing.assert_allclose(course.accelerations, np.column_stack([6.0 * at, np.zeros(400)]), atol=1e-8)

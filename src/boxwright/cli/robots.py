@@ -1,4 +1,4 @@
-"""`boxwright robots`: which robots there are, and one of them as URDF or as a file to change."""
+"""`boxwright robots`: which robots there are, and one of them as URDF, MJCF or as a file to change."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ def robots(
         str | None, typer.Argument(metavar="[ROBOT]", help="A name, or one's own .toml or .urdf file; all by default.")
     ] = None,
     urdf: Annotated[Path | None, typer.Option("--urdf", metavar="FILE", help="Write the robot as URDF.")] = None,
+    mjcf: Annotated[
+        Path | None, typer.Option("--mjcf", metavar="FILE", help="Write the robot as MJCF, as physics drives it.")
+    ] = None,
     toml: Annotated[
         Path | None, typer.Option("--toml", metavar="FILE", help="Write the robot's own file, to be changed and named.")
     ] = None,
@@ -31,13 +34,17 @@ def robots(
     boxwright robots my_arm.urdf --toml my_arm.toml
     """
     from boxwright.cli.robots_report import print_json, print_list, print_robot
-    from boxwright.robots import load_robot, robot_names, robot_text, save_robot_urdf
+    from boxwright.robots import load_robot, robot_file, robot_names, robot_text, save_robot_urdf
 
-    if robot is None and (urdf or toml):
+    if robot is None and (urdf or mjcf or toml):
         raise typer.BadParameter("name the robot to write", param_hint="ROBOT")
     loaded = [load_robot(name) for name in (robot_names() if robot is None else [robot])]
     if robot is not None and urdf is not None:
         save_robot_urdf(loaded[0], urdf)
+    if robot is not None and mjcf is not None:
+        from boxwright.simulation.physics import Arm
+
+        mjcf.write_text(Arm(robot_file(robot)).mjcf_text(), encoding="utf-8")
     if robot is not None and toml is not None:
         toml.write_text(robot_text(robot), encoding="utf-8")
     if as_json:

@@ -32,7 +32,7 @@ def simulate(
         float | None, typer.Option(min=0.1, help="Thickness of the board, before what truth or model tell.")
     ] = None,
     robot: Annotated[
-        Path | None, typer.Option(metavar="FILE.toml", help="The plan's robot, where it is not a shipped one.")
+        Path | None, typer.Option(metavar="FILE", help="The plan's robot (.toml, .urdf), where it is not shipped.")
     ] = None,
     time_step_ms: Annotated[float, typer.Option(help="Physics' time step, 1 at most.")] = 1.0,
     output: Annotated[
@@ -62,6 +62,7 @@ def simulate(
     from boxwright.io.plans import load_plan
     from boxwright.io.simulations import save_simulation
     from boxwright.io.truth import load_truth
+    from boxwright.robots.catalogue import robot_file
     from boxwright.simulation.physics import CREASE, Load, PhysicsSettings
     from boxwright.simulation.physics import simulate as simulate_plan
 
@@ -73,7 +74,7 @@ def simulate(
         None if truth is None else load_truth(truth),
         crease=crease or CREASE,
         crease_file=crease_file,
-        robot=robot,
+        robot=None if robot is None else robot_file(robot),
         load=Load(empty=empty, mass_kg=mass_kg),
         settings=PhysicsSettings(time_step_s=step_s),
         thickness_m=None if board_mm is None else board_mm / 1000.0,

@@ -39,9 +39,10 @@ class Simulation(msgspec.Struct, frozen=True, kw_only=True):
     """A run of a plan in physics, against the `inferred` model of a box or the `true` one.
 
     `box_slid_m` and `box_turned_rad` are the box's way and turn from start to end. `max_force_n` is the most that the
-    tool pressed on anything, `unwanted` the pairs of bodies that touched and should not have: of the arm's with
-    anything but the flap that was pushed. `failure` says why the run proves nothing, None where it does; where it is
-    told no flap counts as closed. `mass_kg` is that of the box with its contents, which weigh `contents_kg`.
+    tool pressed on anything, felt with a time constant of 10 ms. `unwanted` holds the pairs of bodies that touched and
+    should not have: of the arm's with anything but the flap that was pushed. `failure` says why the run proves nothing,
+    None where it does; where it is told no flap counts as closed. `mass_kg` is that of the box with its contents, which
+    weigh `contents_kg`.
     """
 
     format: Literal["boxwright.simulation"]

@@ -4,7 +4,7 @@ from boxwright.simulation.physics.arm import Arm
 from boxwright.simulation.physics.boards import BoardBox, modelled_box, true_box
 from boxwright.simulation.physics.creases import Crease, crease_class, load_creases
 from boxwright.simulation.physics.plans import simulate
-from boxwright.simulation.physics.robot_file import RobotFile, load_robot
+from boxwright.simulation.physics.robot_file import load_robot
 from boxwright.simulation.physics.run import CREASE, Run, simulate_closing
 from boxwright.simulation.physics.session import Load, Session
 from boxwright.simulation.physics.settings import PhysicsSettings
@@ -16,7 +16,6 @@ __all__ = [
     "Crease",
     "Load",
     "PhysicsSettings",
-    "RobotFile",
     "Run",
     "Session",
     "crease_class",

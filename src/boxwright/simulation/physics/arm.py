@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from boxwright.simulation.physics.box_bodies import SOLID, contact_of
-from boxwright.simulation.physics.robot_file import Link, RobotFile, turned
+from boxwright.simulation.physics.robot_file import last_link_from_flange, mounts, turned
 from boxwright.simulation.physics.settings import PhysicsSettings
 from boxwright.simulation.physics.world import SUPPORT, ToolNames
+from boxwright.types import RobotFile, RobotLink
 
 Array = NDArray[np.float64]
 
@@ -57,19 +58,19 @@ class Arm:
 
     def add_to(self, spec: mujoco.MjSpec, settings: PhysicsSettings, start: Array, opening_m: float) -> ToolNames:
         """Links, gripper and servos, in the world's frame; joints in the file's order, then the two fingers'."""
-        if len(start) != len(self.robot.joints):
-            raise ValueError(f"robot {self.name} has {len(self.robot.joints)} joints; the trajectory has {len(start)}")
+        if len(start) != len(self.robot.joint):
+            raise ValueError(f"robot {self.name} has {len(self.robot.joint)} joints; the trajectory has {len(start)}")
         names = self._add_bodies(spec, settings)
         _exclude(spec, self.robot, names)
         spec.add_exclude(bodyname1=BASE, bodyname2=SUPPORT)
         for name, servo in self.servos.items():
             _add_servo(spec, name, servo)
-        joints = tuple(joint.name for joint in self.robot.joints)
+        joints = tuple(joint.name for joint in self.robot.joint)
         return ToolNames(joints, (GRIPPER, *FINGERS), (*names, GRIPPER, *FINGERS))
 
     def begin(self, model: mujoco.MjModel, data: mujoco.MjData, start: Array, opening_m: float) -> None:
         """Puts the joints at `start` and the fingers as wide open as told."""
-        data.qpos[[model.joint(joint.name).qposadr[0] for joint in self.robot.joints]] = start
+        data.qpos[[model.joint(joint.name).qposadr[0] for joint in self.robot.joint]] = start
         data.qpos[[model.joint(finger).qposadr[0] for finger in FINGERS]] = opening_m / 2.0
         data.ctrl[:] = np.concatenate([start, [opening_m / 2.0] * 2])
 
@@ -98,13 +99,11 @@ class Arm:
         self._add_bodies(spec, PhysicsSettings())
         model = spec.compile()
         data, inertia = mujoco.MjData(model), np.zeros((model.nv, model.nv))
-        data.qpos[[model.joint(joint.name).qposadr[0] for joint in self.robot.joints]] = np.radians(
-            self.robot.ready_deg
-        )
+        data.qpos[[model.joint(joint.name).qposadr[0] for joint in self.robot.joint]] = np.radians(self.robot.ready_deg)
         mujoco.mj_forward(model, data)
         mujoco.mj_fullM(model, data, inertia)
         servos = {}
-        for joint in self.robot.joints:
+        for joint in self.robot.joint:
             at = int(model.joint(joint.name).dofadr[0])
             kg_m2 = float(inertia[at, at])
             strongest = TORQUE_SHARE * kg_m2 * float(np.radians(joint.acceleration_deg_per_s2))
@@ -116,9 +115,9 @@ class Arm:
         """The links' bodies, each on the one before, then the gripper; the links' names."""
         robot = self.robot
         body = spec.worldbody.add_body(name=BASE)
-        _add_shapes(body, robot.links[0], settings)
+        _add_shapes(body, robot.link[0], settings)
         names = [BASE]
-        for (mount, axis), joint, link in zip(robot.mounts(), robot.joints, robot.links[1:], strict=True):
+        for (mount, axis), joint, link in zip(mounts(robot), robot.joint, robot.link[1:], strict=True):
             body = body.add_body(name=link.name, pos=mount[:3, 3], quat=quaternion(mount), gravcomp=1.0)
             body.add_joint(
                 name=joint.name,
@@ -134,7 +133,7 @@ class Arm:
         return names
 
     def _add_gripper(self, last: mujoco.MjsBody, settings: PhysicsSettings) -> None:
-        gripper, flange = self.robot.gripper, self.robot.last_link_from_flange()
+        gripper, flange = self.robot.gripper, last_link_from_flange(self.robot)
         depth_m = gripper.body_size_m[2]
         body = last.add_body(name=GRIPPER, pos=flange[:3, 3], quat=quaternion(flange), gravcomp=1.0)
         body.add_geom(
@@ -169,16 +168,16 @@ def quaternion(pose: Array) -> Array:
     return quat
 
 
-def _add_shapes(body: mujoco.MjsBody, link: Link, settings: PhysicsSettings) -> None:
+def _add_shapes(body: mujoco.MjsBody, link: RobotLink, settings: PhysicsSettings) -> None:
     """The link's shapes, its mass shared out by their volumes."""
-    capsules = [np.pi * c.radius_m**2 * (_length(c.start_m, c.end_m) + 4.0 / 3.0 * c.radius_m) for c in link.capsules]
+    capsules = [np.pi * c.radius_m**2 * (_length(c.from_m, c.to_m) + 4.0 / 3.0 * c.radius_m) for c in link.capsules]
     volumes = [*capsules, *(float(np.prod(box.size_m)) for box in link.boxes)]
     kg_per_m3 = link.mass_kg / sum(volumes)
     common = {"rgba": ARM_RGBA, **SOLID.as_geom(), **contact_of(settings, settings.friction_finger)}
     for capsule, volume in zip(link.capsules, volumes, strict=False):
         body.add_geom(
             type=mujoco.mjtGeom.mjGEOM_CAPSULE,
-            fromto=[*capsule.start_m, *capsule.end_m],
+            fromto=[*capsule.from_m, *capsule.to_m],
             size=[capsule.radius_m, 0.0, 0.0],
             mass=kg_per_m3 * volume,
             **common,
@@ -222,7 +221,7 @@ def _add_servo(spec: mujoco.MjSpec, joint: str, servo: Servo) -> None:
 def _exclude(spec: mujoco.MjSpec, robot: RobotFile, names: list[str]) -> None:
     """Neighbours, what the file says may touch, and finger on finger."""
     bodies = {"gripper": (GRIPPER,), "fingers": FINGERS}
-    bodies |= {link.name: (name,) for link, name in zip(robot.links, names, strict=True)}
+    bodies |= {link.name: (name,) for link, name in zip(robot.link, names, strict=True)}
     pairs = [*pairwise(names), (names[-1], GRIPPER), FINGERS]
     pairs += [(GRIPPER, finger) for finger in FINGERS]
     for first, second in robot.may_touch:

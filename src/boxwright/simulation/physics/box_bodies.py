@@ -69,7 +69,9 @@ def add_box(
     joints = {}
     for board, hinge in box.hinged:
         if free:
-            joints[board.name] = _add_hinge(bodies[board.name], prefix + board.name, board, hinge, crease, settings)
+            joints[board.name] = _add_hinge(
+                bodies[board.name], prefix + board.name, board, hinge, crease, box.thickness_m, settings
+            )
             for sheet in sheets_of(box, board, settings):
                 _add_sheet(bodies[board.name], board, sheet, settings, prefix)
         spec.add_exclude(bodyname1=prefix + hinge.parent, bodyname2=prefix + board.name)
@@ -172,12 +174,18 @@ def contact_of(settings: PhysicsSettings, friction: float) -> dict[str, object]:
 
 
 def _add_hinge(
-    body: mujoco.MjsBody, name: str, board: Board, hinge: Hinge, crease: Crease, settings: PhysicsSettings
+    body: mujoco.MjsBody,
+    name: str,
+    board: Board,
+    hinge: Hinge,
+    crease: Crease,
+    thickness_m: float,
+    settings: PhysicsSettings,
 ) -> str:
     """The body stands where the board was measured, which is the joint's measured position."""
     board_from_world = inverse(board_frame(board))
     reach_m = float(np.linalg.norm(board.corners[2:].mean(axis=0) - hinge.origin))
-    stiffness = crease.stiffness_n_m_per_rad(hinge.length_m)
+    stiffness = crease.stiffness_n_m_per_rad(hinge.length_m, thickness_m)
     low, high = TUCK_RANGE_RAD if board.name.startswith("tuck") else FLAP_RANGE_RAD
     body.add_joint(
         name=name,

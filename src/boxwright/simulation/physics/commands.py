@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 class Course(msgspec.Struct, frozen=True, eq=False):
-    """Positions, velocities and accelerations (N, J) at the end of each of N time steps."""
+    """Positions, velocities and accelerations (N, J) at the beginning of each of N time steps."""
 
     positions: Array
     velocities: Array
@@ -24,10 +24,10 @@ class Course(msgspec.Struct, frozen=True, eq=False):
 
 
 def course_of(segment: PlanSegment, time_step_s: float) -> Course:
-    """A segment's samples, joined by cubics that have its velocities (Hermite); the last step ends where it ends."""
+    """A segment's samples, joined by cubics that have its velocities (Hermite); the last step ends when it ends."""
     times, positions, velocities = (np.array(rows) for rows in (segment.times, segment.positions, segment.velocities))
     count = max(1, int(np.ceil((times[-1] - times[0]) / time_step_s - 1e-9)))
-    at = np.minimum(times[0] + time_step_s * np.arange(1, count + 1), times[-1])
+    at = times[0] + time_step_s * np.arange(count)
     before = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
     span = (times[before + 1] - times[before])[:, None]
     share = (at - times[before])[:, None] / span

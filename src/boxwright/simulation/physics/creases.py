@@ -18,14 +18,17 @@ SHIPPED = "creases.toml"
 class Crease(msgspec.Struct, frozen=True, kw_only=True):
     """A class of creases: an ideal elasto-plastic hinge.
 
-    It takes `moment_n_m_per_m`, for each metre of crease, to fold it on; let go, the flap comes back by `return_deg`.
+    It takes `moment_n_m_per_m`, for each metre of crease in board of `board_mm`, to fold it on, and in proportion more
+    in thicker board; let go, the flap comes back by `return_deg`.
     """
 
     moment_n_m_per_m: float
+    board_mm: float
     return_deg: float
 
     def __post_init__(self) -> None:
         require_positive("moment_n_m_per_m", [self.moment_n_m_per_m])
+        require_positive("board_mm", [self.board_mm])
         require_positive("return_deg", [self.return_deg])
 
     @property
@@ -33,9 +36,16 @@ class Crease(msgspec.Struct, frozen=True, kw_only=True):
         """The elastic band: the rest angle moves once the flap is further from it than this."""
         return float(np.radians(self.return_deg))
 
-    def stiffness_n_m_per_rad(self, length_m: float) -> float:
-        """The elastic spring of a crease of this length."""
-        return self.moment_n_m_per_m * length_m / self.return_rad
+    def moment_n_m(self, length_m: float, thickness_m: float) -> float:
+        """What folds a crease of this length on, in board of this thickness.
+
+        The liners of a folded board pull and press with what they bear, the board's thickness apart.
+        """
+        return self.moment_n_m_per_m * length_m * thickness_m / (self.board_mm / 1000.0)
+
+    def stiffness_n_m_per_rad(self, length_m: float, thickness_m: float) -> float:
+        """The elastic spring of such a crease."""
+        return self.moment_n_m(length_m, thickness_m) / self.return_rad
 
 
 class Creases(msgspec.Struct, frozen=True, kw_only=True):

@@ -15,7 +15,7 @@ from boxwright.simulation.physics.robot_file import load_robot
 from boxwright.simulation.physics.run import CREASE, Run, simulate_closing
 from boxwright.simulation.physics.session import Load
 from boxwright.simulation.physics.settings import PhysicsSettings
-from boxwright.types import Model, Plan, Truth
+from boxwright.types import Model, Plan, RobotFile, Truth
 
 Array = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ def simulate(
     *,
     crease: str = CREASE,
     crease_file: str | PathLike[str] | None = None,
-    robot: str | PathLike[str] | None = None,
+    robot: RobotFile | str | PathLike[str] | None = None,
     load: Load | None = None,
     settings: PhysicsSettings | None = None,
     thickness_m: float | None = None,
@@ -36,17 +36,17 @@ def simulate(
     """Follow a plan in physics, against the true box where a truth is given, else against the planned-on model.
 
     The true box is the one that stands where the planned object was thought to stand, its flaps named as the model
-    names them. The frame's other boxes, true or inferred, stand where they are and do not move. `robot` is a robot's
-    file, the plan's robot by its name where None; `thickness_m` goes before what truth or model tell of the board.
+    names them. The frame's other boxes, true or inferred, stand where they are and do not move. `robot` is the
+    plan's, or its name or TOML file; `thickness_m` goes before what truth or model tell of the board.
 
     Raises ValueError when plan, model and truth do not belong together, or a value cannot be used; OSError for files.
     """
     base_from_input = np.array(plan.base_from_input)
     box, others = scene_boxes(plan, model, truth, base_from_input, thickness_m)
-    arm = Arm(load_robot(robot or plan.robot))
+    arm = Arm(robot if isinstance(robot, RobotFile) else load_robot(robot or plan.robot))
     if arm.name != plan.robot:
-        raise ValueError(f"the plan is for robot {plan.robot!r}; the file describes {arm.name!r}")
-    names = tuple(joint.name for joint in arm.robot.joints)
+        raise ValueError(f"the plan is for robot {plan.robot!r}; the one given is {arm.name!r}")
+    names = tuple(joint.name for joint in arm.robot.joint)
     if names != plan.joint_names:
         raise ValueError(
             f"the plan's joints are {', '.join(plan.joint_names)}; those of {arm.name}: {', '.join(names)}"

@@ -73,8 +73,7 @@ class Stage:
                 least_rad = min(least_rad, data.qpos[flap_at])
             self._film()
         if commands is not None:
-            # What stood before a step is where the step before was to end.
-            errors = np.abs(followed[1:] - course.positions[:-1])
+            errors = np.abs(followed - course.positions)
             self.max_joint_error_rad = max(self.max_joint_error_rad, float(errors.max(initial=0.0)))
         return float(least_rad)
 

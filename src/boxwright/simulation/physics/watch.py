@@ -10,6 +10,10 @@ from boxwright.simulation.physics.world import World
 
 Array = NDArray[np.float64]
 
+FELT_S = 0.01
+"""Forces are told as a sensor of this time constant feels them: how high the peak of a stiff impact is, the time step
+decides."""
+
 
 class Watch:
     """The worst of a run so far. `note` after every step; it reads the contacts of that step and changes nothing."""
@@ -26,12 +30,18 @@ class Watch:
         self.max_penetration_m = 0.0
         self.deepest: tuple[str, str] | None = None
         self.max_force_n = 0.0
+        self._felt_n = 0.0
+        self._share = min(1.0, world.settings.time_step_s / FELT_S)
         self._touched: set[int] = set()
 
     def note(self, data: mujoco.MjData, allowed: frozenset[int]) -> None:
         """`allowed` holds the codes (`code_of`) of pairs of a tool's and another body that may touch now."""
-        if data.ncon == 0:
-            return
+        force_n = self._look(data, allowed) if data.ncon else 0.0
+        self._felt_n += self._share * (force_n - self._felt_n)
+        self.max_force_n = max(self.max_force_n, self._felt_n)
+
+    def _look(self, data: mujoco.MjData, allowed: frozenset[int]) -> float:
+        """Notes depths and pairs; the normal force (N) on the tool."""
         contact = data.contact
         geoms, dist = contact.geom, contact.dist
         if -dist.min() > self.max_penetration_m:
@@ -39,17 +49,14 @@ class Watch:
             self.max_penetration_m = -float(dist[deepest])
             self.deepest = self._names(*self._body_of_geom[geoms[deepest]])
         is_tool = self._is_tool_geom[geoms]
-        if is_tool.max():
-            self._note_tool(data, geoms, is_tool.any(axis=1), allowed)
-
-    def _note_tool(
-        self, data: mujoco.MjData, geoms: NDArray[np.int32], tooled: NDArray[np.bool_], allowed: frozenset[int]
-    ) -> None:
-        """Normal forces stand in the first row of a contact with an elliptic cone."""
-        rows = data.contact.efc_address[tooled]
-        self.max_force_n = max(self.max_force_n, float(data.efc_force[rows[rows >= 0]].sum()))
+        if not is_tool.max():
+            return 0.0
+        tooled = is_tool.any(axis=1)
         pairs = np.sort(self._body_of_geom[geoms[tooled]], axis=1)
         self._touched |= set((pairs[:, 0] * self._bodies + pairs[:, 1]).tolist()) - allowed
+        # With an elliptic cone the normal force stands in the first of a contact's rows.
+        rows = contact.efc_address[tooled]
+        return float(data.efc_force[rows[rows >= 0]].sum())
 
     def forget_depth(self) -> None:
         """What sank into what until now was not a run's doing."""
