@@ -1,6 +1,10 @@
 //! The paper's way through: from a cloud to articulated objects in one call.
 
+mod fitted;
+
 use std::time::Instant;
+
+use fitted::fitted_boxes;
 
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
@@ -9,8 +13,8 @@ use crate::fit::{fit_object, FitSettings};
 use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
-use crate::model::{Assignment, Body, SegmentSet};
-use crate::open_box;
+use crate::model::{Assignment, Body, SegmentSet, Template};
+use crate::open_box::{self, open_boxes, Kinds, Shape};
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -35,6 +39,8 @@ pub struct Answer {
     /// For each point the number of its part among that object's parts, -1 for none.
     pub part_of_point: Vec<i16>,
     pub warnings: Vec<String>,
+    /// For each object what tells its kind, where a body was fitted.
+    pub shapes: Vec<Option<Shape>>,
     /// Whether the rays between the camera and the readings were asked for the parts' states.
     pub free_space: bool,
     /// Seconds of each stage, in order.
@@ -51,15 +57,19 @@ pub fn infer(
     models: &[ObjectModel],
     search: &SearchSettings,
     bodies: Bodies,
+    kinds: &Kinds,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
     if let Bodies::Fitted(_) = bodies {
         let readings = Readings::new(cloud, perception);
-        if let Some(answer) = whole_boxes(cloud, &scene, &readings, models) {
+        if let Some(answer) = whole_boxes(cloud, &scene, &readings, models, kinds) {
             return Ok((scene, answer));
         }
     }
-    let mut answer = understand(&scene, cloud.points.len(), models, search, bodies)?;
+    let mut answer = match bodies {
+        Bodies::Fitted(_) => fitted_boxes(&scene, cloud.points.len(), models, search, bodies, kinds)?,
+        Bodies::Rectangles => understand(&scene, cloud.points.len(), models, search, bodies)?,
+    };
     if search.search == SearchMethod::Exact {
         let start = Instant::now();
         let readings = Readings::new(cloud, perception);
@@ -70,9 +80,17 @@ pub fn infer(
     Ok((scene, answer))
 }
 
-/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint.
-fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[ObjectModel]) -> Option<Answer> {
+/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint, and where no template is an open box.
+fn whole_boxes(
+    cloud: &CloudView,
+    scene: &Scene,
+    readings: &Readings,
+    models: &[ObjectModel],
+    kinds: &Kinds,
+) -> Option<Answer> {
     let start = Instant::now();
+    let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
+    open_boxes(&templates).next()?;
     let settings = FitSettings::default();
     let sight = open_box::Sight::new(cloud, readings, scene)?;
     let found = open_box::find(&sight, scene, &settings);
@@ -81,11 +99,16 @@ fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[
         object_of_point: vec![-1; cloud.points.len()],
         part_of_point: vec![-1; cloud.points.len()],
         warnings: Vec::new(),
+        shapes: Vec::new(),
         free_space: true,
         stage_seconds: Vec::new(),
     };
     for one in &found {
-        let Some((object, parts)) = open_box::answer(one, &models[models.len().min(2) - 1].template, &sight, &settings) else { continue };
+        let shape = Shape::of_found(one);
+        let Some((number, probability)) = kinds.choose(&shape, &templates) else { continue };
+        let Some((object, parts)) = open_box::answer(one, templates[number], probability, &sight, &settings) else {
+            continue;
+        };
         for (part, points) in parts {
             for point in points {
                 answer.object_of_point[point as usize] = answer.objects.len() as i16;
@@ -93,6 +116,7 @@ fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[
             }
         }
         answer.objects.push(object);
+        answer.shapes.push(Some(shape));
     }
     answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
     Some(answer)
@@ -170,6 +194,7 @@ pub fn describe(
         object_of_point: vec![-1; point_count],
         part_of_point: vec![-1; point_count],
         warnings: Vec::new(),
+        shapes: Vec::new(),
         free_space: false,
         stage_seconds: Vec::new(),
     };
@@ -210,5 +235,6 @@ impl Answer {
             }
         }
         self.objects.push(object);
+        self.shapes.push(None);
     }
 }

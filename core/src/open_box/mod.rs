@@ -5,10 +5,13 @@ mod ends;
 mod evidence;
 mod find;
 mod flap_scan;
+mod kind;
 mod lean;
 mod patch;
 mod proposal;
+mod recast;
 mod refit;
+mod shape;
 mod shell;
 mod sight;
 mod surfaces;
@@ -17,4 +20,10 @@ mod yaw;
 
 pub use answer::answer;
 pub use find::{debug, find, shells, FoundBox, Shell};
+pub use kind::{open_boxes, Kinds};
+pub use recast::recast;
+pub use shape::{Shape, SHAPE_FEATURES};
 pub use sight::Sight;
+
+#[cfg(test)]
+mod kind_tests;

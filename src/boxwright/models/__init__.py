@@ -1,6 +1,24 @@
 """Object models as data: templates (TOML) and learned weights (JSON)."""
 
-from boxwright.models.catalogue import TEMPLATE_NAMES, load_object_model, load_template, load_weights, shipped_for
+from boxwright.models.catalogue import (
+    FITTED_TEMPLATES,
+    TEMPLATE_NAMES,
+    load_object_model,
+    load_template,
+    load_weights,
+    shipped_for,
+)
+from boxwright.models.kinds import LearnedKinds, load_kinds
 from boxwright.models.weights import LearnedWeights
 
-__all__ = ["TEMPLATE_NAMES", "LearnedWeights", "load_object_model", "load_template", "load_weights", "shipped_for"]
+__all__ = [
+    "FITTED_TEMPLATES",
+    "TEMPLATE_NAMES",
+    "LearnedKinds",
+    "LearnedWeights",
+    "load_kinds",
+    "load_object_model",
+    "load_template",
+    "load_weights",
+    "shipped_for",
+]
