@@ -1,6 +1,7 @@
-"""Which template a fitted box is of: learns the weights that tell it, or reports how often it is told right.
+r"""Which template a fitted box is of: learns the weights that tell it, or reports how often it is told right.
 
-    .venv/bin/python -m benchmarks.kinds out/sets/train out/sets/totes --learn src/boxwright/models/weights/fitted/kinds.json
+    .venv/bin/python -m benchmarks.kinds out/sets/train out/sets/totes --learn \
+        src/boxwright/models/weights/fitted/kinds.json
     .venv/bin/python -m benchmarks.kinds out/sets/test out/sets/totes_test -o docs/results/kinds.md
 
 The true template of a box is that of its category, but for what is in the cloud of it (`boxwright.kinds`). Boxes that

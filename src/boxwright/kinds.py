@@ -12,8 +12,8 @@ from boxwright import _core
 from boxwright.evaluation import SetEntry, read_entry, score_frame
 from boxwright.io.clouds import read_cloud
 from boxwright.learning.kinds import KindExamples
-from boxwright.parallel import ordered_map, processors
 from boxwright.models import FITTED_TEMPLATES
+from boxwright.parallel import ordered_map, processors
 from boxwright.pipeline import infer
 from boxwright.types import Truth
 

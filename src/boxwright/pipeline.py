@@ -70,9 +70,9 @@ def infer(
 
     `method` "paper" is the pipeline of 2011; "exact" finds planes on the image grid, proves each object's assignment
     best and tells how probable it and its parts are (docs/maths.md, "Exact inference"); "fitted" does so and fits each
-    object's body to its readings ("The fitted body" there). `templates` compete for the
-    segments: shipped names or paths of `.toml` files, by default `TEMPLATES_OF_METHOD`; `weights` names one file for a single template (the method's
-    shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
+    object's body to its readings ("The fitted body" there). `templates` compete for the segments: shipped names or
+    paths of `.toml` files, by default `TEMPLATES_OF_METHOD`; `weights` names one file for a single template (the
+    method's shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
     known. `roi` leaves out all points beyond the bounds. `planes` names the front end that finds the planes, one of
     `_core.PLANES`; None takes the method's own (`PLANES_OF_METHOD`). All coordinates are in the cloud's frame, metres.
     `search` overrides settings of the search by name: `{"search": "exact"}` proves each object's assignment best and
