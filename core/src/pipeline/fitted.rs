@@ -38,7 +38,7 @@ pub fn fitted_boxes(
         }
     }
     name_kinds(&mut answer, models, kinds);
-    if models.iter().any(|model| model.template.body != Body::Free) {
+    if answer.objects.iter().any(|object| Shape::of_answer(object).is_some()) {
         answer.warnings.push(NO_FREE_SPACE.to_owned());
     }
     Ok(answer)
