@@ -33,7 +33,7 @@ def _examples(boxes: int) -> KindExamples:
 
 
 def test_the_fit_is_where_no_weight_could_be_better() -> None:
-    examples = _examples(300)
+    examples = _examples(120)
     learned = learn_kinds(examples, "a test")
     assert learned.training is not None
     names = sorted(learned.weights)

@@ -30,7 +30,7 @@ impl Kinds {
     /// # Errors
     /// Another format, missing or unknown features, values that are not finite: the key is named.
     pub fn from_json(text: &str) -> Result<Self> {
-        let mend = "benchmarks/kinds.py writes weights that fit";
+        let mend = "python -m benchmarks.kinds --learn writes weights that fit";
         let file: KindsFile =
             serde_json::from_str(text).map_err(|error| InputError::new(error.to_string()).mend(mend))?;
         if file.format != FORMAT || file.version != VERSION {
@@ -85,7 +85,9 @@ fn aligned(template: &str, named: &BTreeMap<String, f64>) -> Result<[f64; SHAPE_
     for (slot, name) in out.iter_mut().zip(SHAPE_FEATURES) {
         *slot = match named.get(name) {
             Some(value) if value.is_finite() => *value,
-            Some(value) => return Err(InputError::new(format!("\"{name}\" is {value}")).at(key).mend("a finite number")),
+            Some(value) => {
+                return Err(InputError::new(format!("\"{name}\" is {value}")).at(key).mend("a finite number"))
+            }
             None => return Err(InputError::new(format!("\"{name}\" is missing")).at(key).mend("a number")),
         };
     }

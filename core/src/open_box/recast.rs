@@ -1,4 +1,4 @@
-use crate::body::{ObjectAnswer, PartAnswer};
+use crate::body::{JointAnswer, ObjectAnswer, PartAnswer};
 use crate::fit::Role;
 use crate::model::{Body, Template};
 
@@ -17,11 +17,10 @@ pub fn recast(object: &ObjectAnswer, from: &Template, to: &Template) -> Option<(
     let renamed = |name: &str| Some(to.parts[new_number[from.part_index(name)?]?].name.clone());
     let joints = object.joints.iter().filter_map(|joint| {
         let (parent, child) = (renamed(&joint.parent)?, renamed(&joint.child)?);
-        Some(crate::body::JointAnswer { name: format!("{child}_hinge"), parent, child, ..joint.clone() })
+        Some(JointAnswer { name: format!("{child}_hinge"), parent, child, ..joint.clone() })
     });
     let mut out = ObjectAnswer { template: to.name.clone(), parts, joints: joints.collect(), ..object.clone() };
-    for (old, role) in old_roles.iter().filter(|(old, _)| new_number[*old].is_none()) {
-        debug_assert!(*old < object.parts.len());
+    for (_, role) in old_roles.iter().filter(|(old, _)| new_number[*old].is_none()) {
         let prefix = match role {
             Role::Flap(k) => format!("flap_{k}_"),
             Role::Tuck(k) => format!("tuck_{k}_"),

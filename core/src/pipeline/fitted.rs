@@ -8,7 +8,8 @@ use crate::model::{Body, OpenBoxRoles, Template};
 use crate::open_box::{recast, Kinds, Shape};
 use crate::perception::Scene;
 
-const NO_FREE_SPACE: &str = "free space was not used: the cloud has no image grid or no viewpoint, so what hides a part and \
+const NO_FREE_SPACE: &str =
+    "free space was not used: the cloud has no image grid or no viewpoint, so what hides a part and \
                              what is not there look alike, and no part's state is told";
 
 /// As `understand`; the template of each box is then the most probable of all that were asked for.
