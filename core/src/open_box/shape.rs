@@ -71,7 +71,7 @@ impl Shape {
             1.0,
             (height / USUAL_HEIGHT_M).ln(),
             ((length * width).sqrt() / USUAL_BASE_M).ln(),
-            (length / width).ln().abs(),
+            (length.max(width) / length.min(width)).ln(),
             self.thickness_m / MILLIMETRE,
             count as f64,
             flag(count == 0),
