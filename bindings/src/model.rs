@@ -3,11 +3,11 @@ use boxwright_core::geometry::Vec3;
 use boxwright_core::inference::SearchSettings;
 use boxwright_core::model;
 use boxwright_core::model::SegmentSet;
-use boxwright_core::open_box::Judgement;
+use boxwright_core::open_box::{self, Judgement, SHAPE_FEATURES};
 use boxwright_core::perception::PerceptionSettings;
 use boxwright_core::pipeline::Bodies;
 use boxwright_core::{inference, pipeline};
-use numpy::{PyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -88,6 +88,20 @@ impl ObjectModel {
     }
 }
 
+/// What tells templates of fitted boxes apart, read from JSON text.
+#[pyclass(frozen, module = "boxwright._core")]
+pub struct Kinds {
+    kinds: open_box::Kinds,
+}
+
+#[pymethods]
+impl Kinds {
+    #[new]
+    fn new(weights_json: &str) -> PyResult<Self> {
+        Ok(Self { kinds: open_box::Kinds::from_json(weights_json).map_err(to_python)? })
+    }
+}
+
 /// Refuses settings of the search that do not exist or do not fit, by name.
 #[pyfunction]
 #[pyo3(signature = (**search))]
@@ -132,6 +146,15 @@ impl Answer {
         self.answer.features.iter().map(text).collect()
     }
 
+    /// What tells the kind of each object, (objects, features) as `SHAPE_FEATURES`; NaN where no body was fitted.
+    #[getter]
+    fn shapes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let shapes = &self.answer.shapes;
+        let nothing = [f64::NAN; SHAPE_FEATURES.len()];
+        let rows = shapes.iter().flat_map(|shape| shape.map_or(nothing, |shape| shape.features()));
+        PyArray1::from_iter(py, rows).reshape([shapes.len(), SHAPE_FEATURES.len()])
+    }
+
     #[getter]
     fn free_space(&self) -> bool {
         self.answer.free_space
@@ -160,7 +183,7 @@ fn model_list(models: &[PyRef<'_, ObjectModel>]) -> Vec<inference::ObjectModel> 
 
 /// From a cloud to its objects in one call.
 #[pyfunction]
-#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, judgement=None))]
+#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, kinds=None, judgement=None))]
 #[allow(clippy::too_many_arguments)]
 fn infer(
     py: Python<'_>,
@@ -173,6 +196,7 @@ fn infer(
     perception: Option<&Bound<'_, PyDict>>,
     search: Option<&Bound<'_, PyDict>>,
     fitted: bool,
+    kinds: Option<&Kinds>,
     judgement: Option<&str>,
 ) -> PyResult<(Perception, Answer)> {
     let points = rows_of_three(&points, width, height)?;
@@ -183,7 +207,8 @@ fn infer(
     let cloud = CloudView { points, width, height, viewpoint: viewpoint.map(Vec3::from) };
     let judgement = judgement.map(Judgement::from_json).transpose().map_err(to_python)?;
     let bodies = if fitted { Bodies::Fitted(&cloud, judgement.as_ref()) } else { Bodies::Rectangles };
-    let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies));
+    let kinds = kinds.map_or_else(open_box::Kinds::default, |told| told.kinds.clone());
+    let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies, &kinds));
     let (scene, answer) = inferred.map_err(to_python)?;
     Ok((Perception { scene, point_count: points.len() }, Answer { answer }))
 }
@@ -250,6 +275,8 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<Template>()?;
     m.add_class::<ObjectModel>()?;
     m.add_class::<Answer>()?;
+    m.add_class::<Kinds>()?;
+    m.add("SHAPE_FEATURES", SHAPE_FEATURES.to_vec())?;
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
     m.add_function(wrap_pyfunction!(describe, m)?)?;

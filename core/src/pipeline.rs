@@ -1,9 +1,13 @@
 //! The paper's way through: from a cloud to articulated objects in one call.
 
+mod fitted;
+
 use std::collections::BTreeMap;
 use std::time::Instant;
 
 use serde::Serialize;
+
+use fitted::fitted_boxes;
 
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
@@ -12,8 +16,8 @@ use crate::fit::{fit_object, FitSettings};
 use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
-use crate::model::{Assignment, Body, SegmentSet};
-use crate::open_box::{self, Judgement};
+use crate::model::{Assignment, Body, SegmentSet, Template};
+use crate::open_box::{self, open_boxes, Judgement, Kinds, Shape};
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -38,6 +42,8 @@ pub struct Answer {
     /// For each point the number of its part among that object's parts, -1 for none.
     pub part_of_point: Vec<i16>,
     pub warnings: Vec<String>,
+    /// For each object what tells its kind, where a body was fitted.
+    pub shapes: Vec<Option<Shape>>,
     /// Whether the rays between the camera and the readings were asked for the parts' states.
     pub free_space: bool,
     /// Seconds of each stage, in order.
@@ -64,15 +70,19 @@ pub fn infer(
     models: &[ObjectModel],
     search: &SearchSettings,
     bodies: Bodies,
+    kinds: &Kinds,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
     if let Bodies::Fitted(_, judgement) = bodies {
         let readings = Readings::new(cloud, perception);
-        if let Some(answer) = whole_boxes(cloud, &scene, &readings, models, judgement) {
+        if let Some(answer) = whole_boxes(cloud, &scene, &readings, models, kinds, judgement) {
             return Ok((scene, answer));
         }
     }
-    let mut answer = understand(&scene, cloud.points.len(), models, search, bodies)?;
+    let mut answer = match bodies {
+        Bodies::Fitted(..) => fitted_boxes(&scene, cloud.points.len(), models, search, bodies, kinds)?,
+        Bodies::Rectangles => understand(&scene, cloud.points.len(), models, search, bodies)?,
+    };
     if search.search == SearchMethod::Exact {
         let start = Instant::now();
         let readings = Readings::new(cloud, perception);
@@ -83,15 +93,18 @@ pub fn infer(
     Ok((scene, answer))
 }
 
-/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint.
+/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint, and where no template is an open box.
 fn whole_boxes(
     cloud: &CloudView,
     scene: &Scene,
     readings: &Readings,
     models: &[ObjectModel],
+    kinds: &Kinds,
     judgement: Option<&Judgement>,
 ) -> Option<Answer> {
     let start = Instant::now();
+    let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
+    open_boxes(&templates).next()?;
     let settings = FitSettings::default();
     let sight = open_box::Sight::new(cloud, readings, scene)?;
     let found = open_box::find(&sight, scene, &settings);
@@ -100,13 +113,15 @@ fn whole_boxes(
         object_of_point: vec![-1; cloud.points.len()],
         part_of_point: vec![-1; cloud.points.len()],
         warnings: Vec::new(),
+        shapes: Vec::new(),
         free_space: true,
         stage_seconds: Vec::new(),
         features: Vec::new(),
     };
     for one in &found {
-        let Some((object, parts)) =
-            open_box::answer(one, &models[models.len().min(2) - 1].template, &sight, &settings, judgement)
+        let shape = Shape::of_found(one);
+        let Some((number, probability)) = kinds.choose(&shape, &templates) else { continue };
+        let Some((object, parts)) = open_box::answer(one, templates[number], probability, &sight, &settings, judgement)
         else {
             continue;
         };
@@ -123,6 +138,7 @@ fn whole_boxes(
         let parts = one.part_features.iter().map(|(role, features)| (role.name(), by_name(features)));
         answer.features.push(ObjectFeatures { of_box: by_name(&one.features), parts: parts.collect() });
         answer.objects.push(object);
+        answer.shapes.push(Some(shape));
     }
     answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
     Some(answer)
@@ -201,6 +217,7 @@ pub fn describe(
         object_of_point: vec![-1; point_count],
         part_of_point: vec![-1; point_count],
         warnings: Vec::new(),
+        shapes: Vec::new(),
         free_space: false,
         stage_seconds: Vec::new(),
         features: Vec::new(),
@@ -243,5 +260,6 @@ impl Answer {
             }
         }
         self.objects.push(object);
+        self.shapes.push(None);
     }
 }

@@ -200,6 +200,10 @@ class Answer:
         """(N,) part of each point among its object's parts, -1 for none."""
 
     @property
+    def shapes(self) -> NDArray[np.float64]:
+        """(objects, F) what tells each object's kind, as SHAPE_FEATURES; NaN where no body was fitted."""
+
+    @property
     def free_space(self) -> bool:
         """Whether the rays between the camera and the readings were asked for the parts' states."""
 
@@ -207,6 +211,15 @@ class Answer:
     def warnings(self) -> list[str]: ...
     @property
     def stage_seconds(self) -> dict[str, float]: ...
+
+SHAPE_FEATURES: list[str]
+"""What a fitted box's template is told by, in the order of `Answer.shapes`."""
+
+class Kinds:
+    """What each feature of a fitted body's shape counts for each template, from JSON text."""
+
+    def __init__(self, weights_json: str) -> None:
+        """Raises ValueError naming the key that does not fit."""
 
 def check_search(**search: float | str) -> None:
     """Refuses settings of the search that do not exist or do not fit, by name: ValueError."""
@@ -221,9 +234,10 @@ def infer(
     perception: dict[str, float | str] | None = None,
     search: dict[str, float | str] | None = None,
     fitted: bool = False,
+    kinds: Kinds | None = None,
     judgement: str | None = None,
 ) -> tuple[Perception, Answer]:
-    """From a cloud to its objects in one call, bodies fitted or of rectangles.
+    """From a cloud to its objects in one call, bodies fitted or of rectangles; `kinds` tell fitted boxes' templates.
 
     `judgement` is the text of a judgement file; without one every fitted box is told. Raises ValueError where the cloud cannot be used, with the mend.
     """

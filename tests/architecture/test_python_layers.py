@@ -18,7 +18,7 @@ LAYERS = (
     ("learning", "planning"),
     ("segmentation",),
     ("pipeline",),
-    ("answers", "scoring", "labelling", "runner_up"),
+    ("answers", "scoring", "kinds", "labelling", "runner_up"),
     ("figures",),
     (FACE,),
     ("cli",),

@@ -106,6 +106,21 @@ impl InferenceAnswer {
     }
 }
 
+impl PartAnswer {
+    /// A part that nobody saw and nothing tells of.
+    pub fn unseen(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            observed: false,
+            state: None,
+            probability: None,
+            corners: None,
+            points: 0,
+            marginal: None,
+        }
+    }
+}
+
 pub fn array(v: &Vec3) -> [f64; 3] {
     [v.x, v.y, v.z]
 }

@@ -18,6 +18,7 @@ mod settings;
 mod sheet;
 mod solve;
 mod start;
+mod wall_lean;
 
 pub use body::FittedBody;
 pub use forward::corners;
@@ -30,6 +31,7 @@ pub use settings::FitSettings;
 pub(crate) use answer::fill;
 pub(crate) use body::{edge_place, Parameters};
 pub(crate) use forward::flap_end;
+pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
 pub(crate) use panel::Panel;
 pub(crate) use priors::priors;
@@ -37,8 +39,11 @@ pub(crate) use problem::Problem;
 pub(crate) use readings::{PartEnds, PartReadings, PartSegment};
 pub(crate) use sensor::Sensor;
 pub(crate) use solve::{solve, Solution};
+pub(crate) use wall_lean::wall_lean;
 
 #[cfg(test)]
 mod derivative_tests;
 #[cfg(test)]
 mod recovery_tests;
+#[cfg(test)]
+mod wall_lean_tests;

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::features::{Features, BOX_FEATURES, PART_FEATURES};
 use crate::error::{InputError, Result};
 
-/// Learned weights of what a fitted box, and each of its panels, is judged by: logistic regressions (eq. 88).
+/// Learned weights of what a fitted box, and each of its panels, is judged by: logistic regressions (eq. 90).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Judgement {
     #[serde(rename = "box")]

@@ -11,10 +11,13 @@ mod flap_scan;
 mod grow;
 mod hanging;
 mod judgement;
+mod kind;
 mod lean;
 mod patch;
 mod proposal;
+mod recast;
 mod refit;
+mod shape;
 mod shell;
 mod shells;
 mod sight;
@@ -29,4 +32,10 @@ pub use features::Features;
 pub use find::find;
 pub use grow::FoundBox;
 pub use judgement::Judgement;
+pub use kind::{open_boxes, Kinds};
+pub use recast::recast;
+pub use shape::{Shape, SHAPE_FEATURES};
 pub use sight::Sight;
+
+#[cfg(test)]
+mod kind_tests;

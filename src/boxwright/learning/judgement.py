@@ -1,4 +1,4 @@
-"""Learns how a fitted box, and each of its panels, is judged: two logistic regressions (docs/maths.md, eq. 88)."""
+"""Learns how a fitted box, and each of its panels, is judged: two logistic regressions (docs/maths.md, eq. 90)."""
 
 from __future__ import annotations
 
