@@ -183,7 +183,7 @@ class Answer:
     """What was understood of a cloud of N points."""
 
     def features_json(self) -> list[str]:
-        """What each object and each of its parts was judged by: {"box": {name: value}, "parts": {part: {name: value}}}."""
+        """What each object and its parts were judged by: {"box": {name: value}, "parts": {part: {name: value}}}."""
 
     def objects_json(self) -> list[str]:
         """The objects as JSON text, best first, keys as in docs/formats.md."""
@@ -239,7 +239,9 @@ def infer(
 ) -> tuple[Perception, Answer]:
     """From a cloud to its objects in one call, bodies fitted or of rectangles; `kinds` tell fitted boxes' templates.
 
-    `judgement` is the text of a judgement file; without one every fitted box is told. Raises ValueError where the cloud cannot be used, with the mend.
+    `judgement` is the text of a judgement file; without one every fitted box is told.
+
+    Raises ValueError where the cloud cannot be used, with the mend.
     """
 
 def describe(

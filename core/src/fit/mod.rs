@@ -29,11 +29,10 @@ pub use roles::Role;
 pub use settings::FitSettings;
 
 pub(crate) use answer::fill;
-pub(crate) use body::{edge_place, Parameters};
+pub(crate) use body::Parameters;
 pub(crate) use forward::flap_end;
 pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
-pub(crate) use panel::Panel;
 pub(crate) use priors::priors;
 pub(crate) use problem::Problem;
 pub(crate) use readings::{PartEnds, PartReadings, PartSegment};

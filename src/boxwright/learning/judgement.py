@@ -109,15 +109,14 @@ def examples_of(entry: SetEntry, model: _core.ObjectModel) -> Examples:
     """What is found in one frame before anything is judged, and whether it is right."""
     frame = read_entry(entry)
     cloud = read_cloud(entry.cloud_path)
-    _, answer = _core.infer(
-        cloud.points, cloud.width, cloud.height, [model], viewpoint=cloud.viewpoint, fitted=True
-    )
+    _, answer = _core.infer(cloud.points, cloud.width, cloud.height, [model], viewpoint=cloud.viewpoint, fitted=True)
     objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
     features = tuple(_FEATURES.decode(text) for text in answer.features_json())
     labels = PointLabels(object=answer.object_labels, part=answer.part_labels)
     boxes = score_answer(frame, Answer(objects=objects, labels=labels)).boxes
     of_object = {box.object: box for box in boxes if box.object is not None}
-    asked, parts = [], []
+    asked: list[tuple[dict[str, float], bool]] = []
+    parts: list[tuple[dict[str, float], bool]] = []
     for k, told in enumerate(features):
         box = of_object.get(k)
         if box is None:
