@@ -119,9 +119,18 @@ weights-fitted:
 	$(BIN)/boxwright synth $(SETS)/totes --count 30 --seed 4 --category tote
 	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none $(SETS)/totes --template tote \
 		--method exact -o $(WEIGHTS)/exact/tote.json
+	$(BIN)/boxwright synth $(SETS)/judge --count 150 --seed 501
+	$(BIN)/boxwright synth $(SETS)/judge_none --count 60 --seed 502 --category none
+	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none --method fitted -o $(WEIGHTS)/fitted/judgement.json
 	$(BIN)/python -m benchmarks.kinds $(SETS)/train $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 
-evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 60 without an open box)
+evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, and 200 and 60 without an open box)
+	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 2001
+	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 2002 --category none
+	for method in fitted exact paper; do \
+		$(BIN)/boxwright evaluate $(SETS)/boxes --method $$method -o out/boxes_$$method.json; \
+		$(BIN)/boxwright evaluate $(SETS)/no_boxes --method $$method -o out/no_boxes_$$method.json; \
+	done
 	$(BIN)/boxwright synth $(SETS)/test --count 120 --seed 1000
 	$(BIN)/boxwright synth $(SETS)/test_none --count 60 --seed 1003 --category none
 	$(BIN)/boxwright evaluate $(SETS)/test --method paper --planes grid -o out/test.json

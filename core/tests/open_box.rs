@@ -101,7 +101,8 @@ fn a_box_of_exact_panels_is_measured() {
             measured += 1;
         }
     }
-    assert_eq!(measured, 8);
+    // Of the second box's flap 3 most stands behind flap 1.
+    assert_eq!(measured, 7);
 }
 
 #[test]

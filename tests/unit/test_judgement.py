@@ -1,0 +1,65 @@
+"""By what fitted boxes are judged: the learner against scipy, the file's names against the core's."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+from boxwright import _core
+from boxwright.learning.judgement import RIDGE, fit_logistic
+from boxwright.models import load_judgement, load_object_model
+
+
+def _examples(count: int, seed: int) -> list[tuple[dict[str, float], bool]]:
+    rng = np.random.default_rng(seed)
+    rows = []
+    for _ in range(count):
+        a, b = rng.normal(size=2)
+        is_right = bool(rng.random() < 1.0 / (1.0 + np.exp(-(0.5 + 1.5 * a - 0.7 * b))))
+        rows.append(({"one": 1.0, "a": float(a), "b": 3.0 * float(b)}, is_right))
+    return rows
+
+
+def test_the_learner_finds_what_scipy_finds() -> None:
+    checked = 0
+    for seed in range(5):
+        examples = _examples(300, seed)
+        found = fit_logistic(examples)
+        names = list(found)
+        x = np.array([[features[name] for name in names] for features, _ in examples])
+        y = np.array([is_right for _, is_right in examples], float)
+        scale = np.where(np.array(names) == "one", 1.0, x.std(axis=0))
+        held = np.where(np.array(names) == "one", 1e-6, RIDGE)
+
+        def loss(w: np.ndarray, z: np.ndarray = x / scale, y: np.ndarray = y, held: np.ndarray = held) -> float:
+            return float(np.logaddexp(0.0, z @ w).sum() - y @ (z @ w) + 0.5 * held @ w**2)
+
+        best = minimize(loss, np.zeros(len(names)), tol=1e-12).x / scale
+        np.testing.assert_allclose([found[name] for name in names], best, rtol=1e-3, atol=1e-4)
+        checked += 1
+    assert checked == 5
+
+
+def test_a_judgement_that_does_not_fit_is_named() -> None:
+    text = load_judgement()
+    points = np.full((64 * 48, 3), np.nan, np.float32)
+    points[:] = np.random.default_rng(0).normal(size=points.shape) * 0.01 + [0.0, 0.0, 1.0]
+    _, model = load_object_model("carton", None, "exact")
+    refused = 0
+    for table, name, problem in (("box", "on_walls", "on_walls"), ("part", "lean", "lean")):
+        for change in ("missing", "unknown"):
+            broken = json.loads(text)
+            if change == "missing":
+                del broken[table][name]
+            else:
+                broken[table]["no_such_feature"] = 1.0
+            expected = problem if change == "missing" else "no_such_feature"
+            with pytest.raises(ValueError, match=f"judgement.{table}.*{expected}"):
+                _core.infer(
+                    points, 64, 48, [model], viewpoint=(0.0, 0.0, 0.0), fitted=True, judgement=json.dumps(broken)
+                )
+            refused += 1
+    assert refused == 4
