@@ -1,4 +1,5 @@
 use boxwright_core::cloud::CloudView;
+use boxwright_core::fit::KnownSize;
 use boxwright_core::geometry::Vec3;
 use boxwright_core::inference::SearchSettings;
 use boxwright_core::model;
@@ -140,13 +141,23 @@ pub fn search_settings(overrides: Option<&Bound<'_, PyDict>>) -> PyResult<Search
     SearchSettings::with_overrides(named("search", overrides)?).map_err(to_python)
 }
 
+fn known_sizes(sizes: &[(String, [f64; 3])]) -> PyResult<Vec<KnownSize>> {
+    sizes.iter().map(|(name, outer_m)| KnownSize::new(name, *outer_m).map_err(to_python)).collect()
+}
+
+/// Refuses outer sizes that no box has, (name, three lengths in metres) each.
+#[pyfunction]
+fn check_sizes(sizes: Vec<(String, [f64; 3])>) -> PyResult<()> {
+    known_sizes(&sizes).map(|_| ())
+}
+
 fn model_list(models: &[PyRef<'_, ObjectModel>]) -> Vec<inference::ObjectModel> {
     models.iter().map(|m| m.model.clone()).collect()
 }
 
 /// From a cloud to its objects in one call.
 #[pyfunction]
-#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false))]
+#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, sizes=Vec::new()))]
 #[allow(clippy::too_many_arguments)]
 fn infer(
     py: Python<'_>,
@@ -159,6 +170,7 @@ fn infer(
     perception: Option<&Bound<'_, PyDict>>,
     search: Option<&Bound<'_, PyDict>>,
     fitted: bool,
+    sizes: Vec<(String, [f64; 3])>,
 ) -> PyResult<(Perception, Answer)> {
     let points = rows_of_three(&points, width, height)?;
     let settings = PerceptionSettings::with_overrides(named("perception", perception)?).map_err(to_python)?;
@@ -166,7 +178,8 @@ fn infer(
     let search = search_settings(search)?;
     let models = model_list(&models);
     let cloud = CloudView { points, width, height, viewpoint: viewpoint.map(Vec3::from) };
-    let bodies = if fitted { Bodies::Fitted(&cloud) } else { Bodies::Rectangles };
+    let sizes = known_sizes(&sizes)?;
+    let bodies = if fitted { Bodies::Fitted(&cloud, &sizes) } else { Bodies::Rectangles };
     let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies));
     let (scene, answer) = inferred.map_err(to_python)?;
     Ok((Perception { scene, point_count: points.len() }, Answer { answer }))
@@ -223,7 +236,7 @@ fn describe(
         }
         found.push((set.clone(), inference::FoundObject::of_assignment(&model.model, &set, assignment)));
     }
-    let bodies = if fitted { Bodies::Fitted(&cloud) } else { Bodies::Rectangles };
+    let bodies = if fitted { Bodies::Fitted(&cloud, &[]) } else { Bodies::Rectangles };
     let models = std::slice::from_ref(&model.model);
     let answer = py.detach(|| pipeline::describe(scene, points.len(), models, &found, bodies));
     Ok(Answer { answer })
@@ -244,6 +257,7 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<ObjectModel>()?;
     m.add_class::<Answer>()?;
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
+    m.add_function(wrap_pyfunction!(check_sizes, m)?)?;
     m.add_function(wrap_pyfunction!(debug_shells, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
     m.add_function(wrap_pyfunction!(describe, m)?)?;

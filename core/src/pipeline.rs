@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
 use crate::error::Result;
-use crate::fit::{fit_object, FitSettings};
+use crate::fit::{fit_object, size_warnings, FitSettings, KnownSize};
 use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
@@ -19,8 +19,8 @@ use crate::perception::{perceive, PerceptionSettings, Scene};
 pub enum Bodies<'a> {
     /// Read off the segments' rectangles, as the paper's method does.
     Rectangles,
-    /// Fitted to the readings of this cloud.
-    Fitted(&'a CloudView<'a>),
+    /// Fitted to the readings of this cloud; boxes that have one of these sizes are of it.
+    Fitted(&'a CloudView<'a>, &'a [KnownSize]),
 }
 
 const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
@@ -53,13 +53,17 @@ pub fn infer(
     bodies: Bodies,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
-    if let Bodies::Fitted(_) = bodies {
+    if let Bodies::Fitted(_, sizes) = bodies {
         let readings = Readings::new(cloud, perception);
-        if let Some(answer) = whole_boxes(cloud, &scene, &readings, models) {
+        if let Some(mut answer) = whole_boxes(cloud, &scene, &readings, models, sizes) {
+            answer.warnings.extend(size_warnings(&answer.objects, sizes));
             return Ok((scene, answer));
         }
     }
     let mut answer = understand(&scene, cloud.points.len(), models, search, bodies)?;
+    if let Bodies::Fitted(_, sizes) = bodies {
+        answer.warnings.extend(size_warnings(&answer.objects, sizes));
+    }
     if search.search == SearchMethod::Exact {
         let start = Instant::now();
         let readings = Readings::new(cloud, perception);
@@ -71,11 +75,11 @@ pub fn infer(
 }
 
 /// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint.
-fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[ObjectModel]) -> Option<Answer> {
+fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[ObjectModel], sizes: &[KnownSize]) -> Option<Answer> {
     let start = Instant::now();
     let settings = FitSettings::default();
     let sight = open_box::Sight::new(cloud, readings, scene)?;
-    let found = open_box::find(&sight, scene, &settings);
+    let found = open_box::find(&sight, scene, sizes, &settings);
     let mut answer = Answer {
         objects: Vec::new(),
         object_of_point: vec![-1; cloud.points.len()],
@@ -85,7 +89,7 @@ fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[
         stage_seconds: Vec::new(),
     };
     for one in &found {
-        let Some((object, parts)) = open_box::answer(one, &models[models.len().min(2) - 1].template, &sight, &settings) else { continue };
+        let Some((object, parts)) = open_box::answer(one, &models[models.len().min(2) - 1].template, &sight, sizes, &settings) else { continue };
         for (part, points) in parts {
             for point in points {
                 answer.object_of_point[point as usize] = answer.objects.len() as i16;
@@ -180,9 +184,9 @@ pub fn describe(
         let name = format!("object {} ({})", answer.objects.len(), template.name);
         if built.pose.is_none() && template.body != Body::Free {
             answer.warnings.push(format!("{name}: {NO_POSE}"));
-        } else if let (Bodies::Fitted(cloud), Body::OpenBox(_)) = (bodies, &template.body) {
+        } else if let (Bodies::Fitted(cloud, sizes), Body::OpenBox(_)) = (bodies, &template.body) {
             let start = Instant::now();
-            match fit_object(&built, template, scene, set, &assignment, cloud, &FitSettings::default()) {
+            match fit_object(&built, template, scene, set, &assignment, cloud, sizes, &FitSettings::default()) {
                 Ok(fitted) => (built, assignment) = fitted,
                 Err(reason) => {
                     answer.warnings.push(format!("{name}: its body is that of its rectangles, not fitted: {reason}"))
@@ -193,7 +197,7 @@ pub fn describe(
         answer.add(built, scene, set, &assignment);
     }
     answer.stage_seconds = vec![("body", start.elapsed().as_secs_f64() - fit_seconds)];
-    if let Bodies::Fitted(_) = bodies {
+    if let Bodies::Fitted(..) = bodies {
         answer.stage_seconds.push(("fit", fit_seconds));
     }
     answer

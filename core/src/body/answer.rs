@@ -19,10 +19,19 @@ pub struct ObjectAnswer {
     pub dimensions: Option<[f64; 3]>,
     pub outer_dimensions: Option<[f64; 3]>,
     pub thickness: Option<f64>,
+    /// The given size that it matches.
+    pub size: Option<SizeAnswer>,
     pub pose: Option<PoseAnswer>,
     pub parameters: BTreeMap<String, ParameterAnswer>,
     pub parts: Vec<PartAnswer>,
     pub joints: Vec<JointAnswer>,
+}
+
+/// A given size, its outer lengths along the object's length, width and height.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SizeAnswer {
+    pub name: String,
+    pub outer_dimensions: [f64; 3],
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -61,6 +70,8 @@ pub struct PartAnswer {
     pub name: String,
     pub observed: bool,
     pub state: Option<PartState>,
+    /// Of a hidden part: unit vector from it towards a place that sees it.
+    pub seen_from: Option<[f64; 3]>,
     pub probability: Option<f64>,
     pub corners: Option<[[f64; 3]; 4]>,
     pub points: usize,

@@ -10,5 +10,6 @@ mod ring;
 
 pub use answer::{
     InferenceAnswer, JointAnswer, JointSigma, ObjectAnswer, ParameterAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer,
+    SizeAnswer,
 };
 pub use build::build_object;

@@ -3,6 +3,7 @@
 mod answer;
 mod body;
 mod forward;
+mod known_size;
 pub(crate) mod layout;
 mod object;
 mod panel;
@@ -16,20 +17,24 @@ mod row;
 mod sensor;
 mod settings;
 mod sheet;
+mod size_warnings;
 mod solve;
 mod start;
 
 pub use body::FittedBody;
 pub use forward::corners;
+pub use known_size::{KnownSize, SizeMatch};
 pub use object::fit_object;
 pub use refusal::NotFitted;
 pub use rim::Rim;
 pub use roles::Role;
 pub use settings::FitSettings;
+pub use size_warnings::size_warnings;
 
 pub(crate) use answer::fill;
 pub(crate) use body::{edge_place, Parameters};
 pub(crate) use forward::flap_end;
+pub(crate) use known_size::{best_match, best_match_within, share_of_score, with_known_size};
 pub(crate) use object::{canonical_turn, check};
 pub(crate) use panel::Panel;
 pub(crate) use priors::priors;

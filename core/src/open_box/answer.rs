@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use super::find::FoundBox;
 use super::sight::Sight;
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer};
-use crate::fit::{fill, FitSettings, Role, Solution};
+use crate::fit::{fill, FitSettings, KnownSize, Role, Solution};
 use crate::free_space::PartState;
 use crate::model::{Body, Template};
 
@@ -12,6 +12,7 @@ pub fn answer(
     found: &FoundBox,
     template: &Template,
     sight: &Sight,
+    sizes: &[KnownSize],
     settings: &FitSettings,
 ) -> Option<(ObjectAnswer, Vec<(usize, Vec<u32>)>)> {
     let Body::OpenBox(box_roles) = &template.body else { return None };
@@ -41,12 +42,14 @@ pub fn answer(
         dimensions: None,
         outer_dimensions: None,
         thickness: None,
+        size: None,
         pose: None,
         parameters: BTreeMap::new(),
         parts,
         joints: Vec::new(),
     };
     fill(&mut object, template, &roles, &seen, &solution, settings);
+    object.size = found.size.map(|size| size.answer(sizes));
     for &(part, role) in &roles {
         let state = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, e)| PartState::of(&e.looked()));
         object.parts[part].state = state;
@@ -55,5 +58,5 @@ pub fn answer(
 }
 
 fn blank(name: &str) -> PartAnswer {
-    PartAnswer { name: name.to_owned(), observed: false, state: None, probability: None, corners: None, points: 0 }
+    PartAnswer { name: name.to_owned(), observed: false, state: None, seen_from: None, probability: None, corners: None, points: 0 }
 }

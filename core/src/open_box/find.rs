@@ -11,6 +11,7 @@ use super::sight::Sight;
 use super::surfaces::{label, roles, Labels, Present};
 use super::upright::ways_up;
 use super::yaw::yaws;
+use crate::fit::{best_match, best_match_within, share_of_score, with_known_size, KnownSize, SizeMatch};
 use crate::fit::{check, layout, FitSettings, FittedBody, Parameters, Role, Solution};
 use crate::geometry::Vec3;
 use crate::perception::Scene;
@@ -23,6 +24,8 @@ pub struct FoundBox {
     pub labels: Labels,
     pub evidence: Vec<(Role, Evidence)>,
     pub score: f64,
+    /// The given size that comes nearest.
+    pub size: Option<SizeMatch>,
 }
 
 /// Of proposals that lie upon each other so many are looked at closely.
@@ -40,7 +43,9 @@ pub struct Shell {
 }
 
 /// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings.
-pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBox> {
+///
+/// Of rivals those that have one of the given `sizes` win.
+pub fn find(sight: &Sight, scene: &Scene, sizes: &[KnownSize], settings: &FitSettings) -> Vec<FoundBox> {
     let t0 = std::time::Instant::now();
     let mut shells = shells(sight, scene);
     let t1 = t0.elapsed().as_secs_f64();
@@ -48,6 +53,7 @@ pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBo
         let body = body_of(&shell.proposal);
         shell.flaps = scan_flaps(sight, &body, COARSE_M);
         shell.score = shell.looked.score() + shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
+        shell.score *= share_of_score(best_match_within(outer_m(&shell.proposal), PROPOSED_SIGMA_M, sizes).as_ref());
     }
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
     let t2 = t0.elapsed().as_secs_f64();
@@ -58,13 +64,13 @@ pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBo
             continue;
         }
         fitted.push(shell);
-        found.extend(grow(sight, shell, settings));
+        found.extend(grow(sight, shell, settings).map(|found| sized(found, sizes)));
     }
     let t3 = t0.elapsed().as_secs_f64();
     if std::env::var("BW_T").is_ok() {
         eprintln!("shells {} {:.1} ms, flaps {:.1} ms, grow {} {:.1} ms", shells.len(), t1 * 1e3, (t2 - t1) * 1e3, fitted.len(), (t3 - t2) * 1e3);
     }
-    choose(found, sight.width).into_iter().filter_map(|one| finish(sight, one, settings)).collect()
+    choose(found, sight.width).into_iter().filter_map(|one| finish(sight, one, sizes, settings)).collect()
 }
 
 /// How well proposals and fitted bodies are known, beside the noise.
@@ -132,6 +138,19 @@ fn middle(proposal: &Proposal) -> Vec3 {
     let half = |span: &[f64; 2]| (span[0] + span[1]) / 2.0;
     let [x, y] = proposal.spans.each_ref().map(half);
     proposal.axes[0] * x + proposal.axes[1] * y + proposal.up * half(&proposal.heights)
+}
+
+/// How well a proposal's lengths are known.
+const PROPOSED_SIGMA_M: f64 = 0.01;
+
+fn outer_m(proposal: &Proposal) -> [f64; 3] {
+    let [x, y] = proposal.spans;
+    [x[1] - x[0], y[1] - y[0], proposal.heights[1] - proposal.heights[0]]
+}
+
+fn sized(mut found: FoundBox, sizes: &[KnownSize]) -> FoundBox {
+    found.size = best_match(&found.solution, sizes);
+    found
 }
 
 fn body_of(proposal: &Proposal) -> FittedBody {
@@ -259,14 +278,15 @@ fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox
 }
 
 /// A box that has won, with its tuck flaps, fitted to all of its readings.
-fn finish(sight: &Sight, found: FoundBox, settings: &FitSettings) -> Option<FoundBox> {
+fn finish(sight: &Sight, found: FoundBox, sizes: &[KnownSize], settings: &FitSettings) -> Option<FoundBox> {
     let body = &found.solution.body;
     let (body, present) = with_tucks(body, &found.present, &scan_tucks(sight, body, &found.present, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);
     let solution = refit(sight, &body, &present, &labels, settings).ok()?;
+    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
     check(&solution.body).ok()?;
-    Some(weigh(sight, solution, present, 1))
+    Some(FoundBox { size, ..weigh(sight, solution, present, 1) })
 }
 
 /// Readings on its panels, each counted once, less twice those through them, less those that close the opening and are of no
@@ -291,7 +311,7 @@ fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize) -> 
     let look = |role: Role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M));
     let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(look).collect();
     let score = score(sight, &solution.body, &labels, &evidence);
-    FoundBox { solution, present, labels, evidence, score }
+    FoundBox { solution, present, labels, evidence, score, size: None }
 }
 
 /// Readings are shared by cells of so many pixels: boxes were not asked at the same ones.
@@ -299,7 +319,8 @@ const COARSE_CELL: usize = 4;
 
 /// Takes the best, and of the rest those that leave its readings alone.
 fn choose(mut found: Vec<FoundBox>, width: usize) -> Vec<FoundBox> {
-    found.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref());
+    found.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     let mut out: Vec<FoundBox> = Vec::new();
     let mut taken = std::collections::BTreeSet::new();
     for candidate in found {
