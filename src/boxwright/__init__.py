@@ -11,6 +11,7 @@ y down, z forward). Names are loaded when they are first used.
 - `Cloud`: points (N, 3) float32, metres; pixel (u, v) of an organized one is point v * width + u.
 - `read_cloud(path, ...) -> Cloud`: PCD, PLY, NPY, or a depth PNG with its intrinsics.
 - `infer(cloud, ...) -> Inferred`: the model, and the object and part of each point, (N,) int16, -1 for none.
+- `KnownSize`, `read_sizes(path)`: outer sizes of boxes, metres; `infer(cloud, method="fitted", sizes=...)` uses them.
 - `segment(cloud, ...) -> Segmented`: the cloud's planar segments without meaning, as a record and as perceived.
 - `Model`: panels (4 corners, metres), hinges (origin, axis, position in radians: 0 closed, growing as a flap opens).
 - `load_model(path) -> Model`: a model.json.
@@ -26,23 +27,38 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from boxwright.io.clouds import read_cloud
     from boxwright.io.models import load_model
+    from boxwright.io.sizes import read_sizes
     from boxwright.kinematics import save_urdf
     from boxwright.pipeline import infer
     from boxwright.scoring import evaluate
     from boxwright.segmentation import segment
-    from boxwright.types import Cloud, Model
+    from boxwright.types import Cloud, KnownSize, Model
 
 __version__ = "0.1.0"
 
-__all__ = ["Cloud", "Model", "__version__", "evaluate", "infer", "load_model", "read_cloud", "save_urdf", "segment"]
+__all__ = [
+    "Cloud",
+    "KnownSize",
+    "Model",
+    "__version__",
+    "evaluate",
+    "infer",
+    "load_model",
+    "read_cloud",
+    "read_sizes",
+    "save_urdf",
+    "segment",
+]
 
 _HOMES = {
     "Cloud": "boxwright.types",
+    "KnownSize": "boxwright.types",
     "Model": "boxwright.types",
     "evaluate": "boxwright.scoring",
     "infer": "boxwright.pipeline",
     "load_model": "boxwright.io.models",
     "read_cloud": "boxwright.io.clouds",
+    "read_sizes": "boxwright.io.sizes",
     "save_urdf": "boxwright.kinematics",
     "segment": "boxwright.segmentation",
 }

@@ -202,6 +202,9 @@ class Answer:
 def check_search(**search: float | str) -> None:
     """Refuses settings of the search that do not exist or do not fit, by name: ValueError."""
 
+def check_sizes(sizes: list[tuple[str, tuple[float, float, float]]]) -> None:
+    """Refuses outer sizes that no box has, (name, three lengths in metres) each: ValueError."""
+
 def infer(
     points: NDArray[np.float32],
     width: int,
@@ -212,6 +215,7 @@ def infer(
     perception: dict[str, float | str] | None = None,
     search: dict[str, float | str] | None = None,
     fitted: bool = False,
+    sizes: list[tuple[str, tuple[float, float, float]]] = ...,
 ) -> tuple[Perception, Answer]:
     """From a cloud to its objects in one call, bodies fitted or of rectangles.
 

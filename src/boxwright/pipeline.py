@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from boxwright import _core
 from boxwright.models import TEMPLATE_NAMES, load_object_model, shipped_for
 from boxwright.perception import chosen
 from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
-from boxwright.types import Cloud
+from boxwright.types import Cloud, KnownSize
 from boxwright.types.model import Model, Object, Seconds
 
 METHODS = ("paper", "exact", "fitted")
@@ -56,6 +57,7 @@ def infer(
     roi: Bounds | None = None,
     planes: str | None = None,
     search: dict[str, float | str] | None = None,
+    sizes: Sequence[KnownSize] = (),
     read_seconds: float = 0.0,
 ) -> Inferred:
     """Infers the articulated objects of a cloud.
@@ -70,12 +72,17 @@ def infer(
     `search` overrides settings of the search by name: `{"search": "exact"}` proves each object's assignment best and
     tells its probability (docs/maths.md, "Exact inference"); "staged" is the paper's.
 
+    `sizes` are outer sizes that boxes may have ("fitted" alone): a box that has one is taken to have it exactly, and of
+    rival boxes those that have one win; `warnings` tell of boxes that have none, and when no box in view has any.
+
     Raises ValueError where a value does not fit or the cloud cannot be used as it is (units, frame, up), with the mend.
     """
     if method not in METHODS:
         raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
     if weights is not None and len(templates) != 1:
         raise ValueError("weights fit one template; name that one alone")
+    if sizes and method != "fitted":
+        raise ValueError(f"method {method!r} knows no sizes; give them to method 'fitted'")
     planes = planes or PLANES_OF_METHOD[method]
     settings = SEARCH_OF_METHOD[method] | (search or {})
     shipped = shipped_for(method, planes if weights is None else PLANES_OF_METHOD[method])
@@ -93,6 +100,7 @@ def infer(
         perception=chosen(planes),
         search=settings,
         fitted=method == "fitted",
+        sizes=[(size.name, size.outer) for size in sizes],
     )
     objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
     total = time.perf_counter() - start

@@ -1,6 +1,7 @@
 use std::collections::BTreeMap;
 
 use super::find::FoundBox;
+use super::hidden::unseen_parts;
 use super::sight::Sight;
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer};
 use crate::fit::{fill, FitSettings, KnownSize, Role, Solution};
@@ -53,6 +54,12 @@ pub fn answer(
     for &(part, role) in &roles {
         let state = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, e)| PartState::of(&e.looked()));
         object.parts[part].state = state;
+    }
+    let unseen: Vec<Role> = roles.iter().filter(|(part, _)| !seen[*part]).map(|(_, role)| *role).collect();
+    for told in unseen_parts(found, sight, &unseen) {
+        let part = roles.iter().find(|(_, role)| *role == told.role).map(|(part, _)| *part)?;
+        object.parts[part].state = Some(told.state);
+        object.parts[part].seen_from = told.seen_from.map(|d| (sight.input_from_level.rotation * d).into());
     }
     Some((object, readings))
 }

@@ -5,13 +5,16 @@ mod ends;
 mod evidence;
 mod find;
 mod flap_scan;
+mod hidden;
 mod lean;
+mod next_view;
 mod patch;
 mod proposal;
 mod refit;
 mod shell;
 mod sight;
 mod surfaces;
+mod unseen;
 mod upright;
 mod yaw;
 

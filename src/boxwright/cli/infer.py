@@ -12,6 +12,7 @@ from boxwright.cli.options import (
     CloudsArgument,
     InputsOption,
     JsonOption,
+    KnownOptions,
     ModelOptions,
     OutOption,
     ReadOptions,
@@ -32,6 +33,7 @@ def infer(
     model: ModelOptions,
     reading: ReadOptions,
     scene: SceneOptions,
+    known: KnownOptions,
     figure: FigureOption = False,
     jobs: InputsOption = 1,
     as_json: JsonOption = False,
@@ -48,6 +50,8 @@ def infer(
 
     boxwright infer *.ply -o out --unit mm --frame opengl
 
+    boxwright infer frame.pcd -o out --method fitted --size 400x300x200
+
     boxwright infer depth.png -o out --intrinsics camera.json --roi=-1,1,-1,1,0.4,2
     """
     import time
@@ -58,12 +62,13 @@ def infer(
     from boxwright.cli.pictures import frame_figure_drawer
 
     refuse_shared_names(clouds)
+    sizes = known.sizes(model.method_name)
     draw = frame_figure_drawer() if figure else None
 
     def answer(path: Path) -> tuple[Model, tuple[Path, ...]]:
         start = time.perf_counter()
         cloud = reading.read(path)
-        inferred = model.infer(cloud, scene, time.perf_counter() - start)
+        inferred = model.infer(cloud, scene, time.perf_counter() - start, sizes)
         files = save_answer(inferred, output / path.stem, path.stem)
         if draw is not None:
             files = (*files, output / path.stem / f"{path.stem}.png")

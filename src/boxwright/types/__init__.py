@@ -3,6 +3,7 @@
 from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, PartState, Pose
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
+from boxwright.types.known_size import KnownSize, MatchedSize
 from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
 from boxwright.types.segments import Segment, Segmentation
 from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
@@ -14,6 +15,8 @@ __all__ = [
     "Intrinsics",
     "Joint",
     "JointSigma",
+    "KnownSize",
+    "MatchedSize",
     "Model",
     "Object",
     "Parameter",
