@@ -46,4 +46,6 @@ pub(crate) use solve::{solve, Solution};
 #[cfg(test)]
 mod derivative_tests;
 #[cfg(test)]
+mod known_size_tests;
+#[cfg(test)]
 mod recovery_tests;

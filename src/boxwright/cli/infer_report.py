@@ -66,7 +66,9 @@ def print_knowledge(number: int, found: Object, up: Vector) -> None:
     for part in found.parts:
         if part.seen_from is None or part.state is None:
             continue
-        height = math.degrees(math.asin(max(-1.0, min(1.0, sum(a * b for a, b in zip(part.seen_from, up, strict=True))))))
+        height = math.degrees(
+            math.asin(max(-1.0, min(1.0, sum(a * b for a, b in zip(part.seen_from, up, strict=True)))))
+        )
         way = ", ".join(f"{coordinate:.2f}" for coordinate in part.seen_from)
         how = f"hidden ({part.state.hidden:.2f}); seen from ({way}), {height:.0f} deg above the horizon"
         out.print(f"{number} {found.template} {part.name}: {how}")

@@ -36,7 +36,9 @@ def read_sizes(path: str | os.PathLike[str]) -> tuple[KnownSize, ...]:
     except UnicodeDecodeError as error:
         raise ValueError(f"{path}: byte {error.start}: is not UTF-8 text") from None
     except (tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
-        raise ValueError(f"{path}: {error}; a catalogue is [[size]] tables with name and outer_mm = [L, W, H]") from None
+        raise ValueError(
+            f"{path}: {error}; a catalogue is [[size]] tables with name and outer_mm = [L, W, H]"
+        ) from None
     if not content.size:
         raise ValueError(f"{path}: holds no sizes; give at least one [[size]] table")
     sizes: dict[str, KnownSize] = {}

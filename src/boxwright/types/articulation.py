@@ -74,7 +74,7 @@ class Part(msgspec.Struct, frozen=True, kw_only=True):
     probability: float | None = None
     """That its points are this panel's; None where the method has none, or where it was not observed."""
     seen_from: Vector | None = None
-    """Of a hidden part: unit vector from it towards the nearest place that would see it; None where nobody knows one."""
+    """Of a hidden part: unit vector from it towards the nearest place that would see it; None where none is known."""
 
     def __post_init__(self) -> None:
         require_name("name", self.name)

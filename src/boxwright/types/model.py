@@ -100,7 +100,7 @@ class Object(msgspec.Struct, frozen=True, kw_only=True):
     `score` is J(G). `dimensions` and `outer_dimensions` are length, width, height and `thickness` the board's, metres;
     `pose` is input_from_object. They are None where too little was seen to say (paper's method: fewer than two sides),
     as are probabilities that the method does not have. `parts` lists every part of the template; `joints` what turns;
-    `score_terms` what the score is made of; `size` is the given size that it has, None where it has none or none was given.
+    `score_terms` what the score is made of; `size` is the given size that it has, None without one.
     """
 
     template: str
