@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import typer
 
 import boxwright
+from boxwright.cli.values import OuterSize
 from boxwright.types import KnownSize, Object
 from support.second_view import SeenScene, draw, true_names
 
@@ -56,6 +58,27 @@ def test_bad_catalogues_name_file_and_fault(tmp_path: Path) -> None:
         assert fault in line, line
         assert "\n" not in line, line
     assert len(BAD) == 10
+
+
+NONSENSE = (
+    ("400x300", "is not three lengths"),
+    ("400x300x200x100", "is not three lengths"),
+    ("400x300xtall", "is not three lengths"),
+    ("400,300,200", "is not three lengths"),
+    ("0.4x0.3x0.2", "has a length of 0.4 mm"),
+    ("4000x300x200", "has a length of 4000 mm"),
+    ("400x300x-200", "above 0"),
+    ("nanx300x200", "above 0"),
+)
+
+
+def test_sizes_on_the_command_line_are_three_lengths_in_millimetres() -> None:
+    assert OuterSize.parse("400x300.5X200").outer_mm == (400.0, 300.5, 200.0)
+    for text, fault in NONSENSE:
+        with pytest.raises(typer.BadParameter, match=fault) as refusal:
+            OuterSize.parse(text)
+        assert "400x300x200" in refusal.value.message
+    assert len(NONSENSE) == 8
 
 
 def test_methods_that_know_no_sizes_say_so() -> None:

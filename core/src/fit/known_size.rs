@@ -16,7 +16,7 @@ pub struct KnownSize {
 }
 
 /// What a person's rule, and boxes of one kind among themselves, err by.
-const SIZE_SIGMA_M: f64 = 0.0015;
+const SIZE_SIGMA_M: f64 = 0.001;
 /// How far a fit may be off beside its own standard deviations, and still be of a box of that size.
 const MATCH_SIGMA_M: f64 = 0.006;
 /// Chi-squared of three numbers, exceeded once in a thousand.

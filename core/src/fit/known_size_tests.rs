@@ -7,7 +7,7 @@ use super::known_size::{best_match, best_match_within, outer_m, share_of_score, 
 use super::layout::{HEIGHT, LENGTH, PARAMETER_COUNT, THICKNESS, WIDTH};
 use super::solve::Solution;
 
-const SIGMA_M: f64 = 0.0015;
+const SIGMA_M: f64 = 0.001;
 
 fn size(name: &str, mm: [f64; 3]) -> KnownSize {
     KnownSize::new(name, mm.map(|length| length / 1e3)).unwrap()
