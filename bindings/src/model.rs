@@ -5,6 +5,7 @@ use boxwright_core::inference::SearchSettings;
 use boxwright_core::model;
 use boxwright_core::model::SegmentSet;
 use boxwright_core::perception::PerceptionSettings;
+use boxwright_core::open_box::Judgement;
 use boxwright_core::pipeline::Bodies;
 use boxwright_core::{inference, pipeline};
 use numpy::{PyArray1, PyReadonlyArray2};
@@ -119,6 +120,12 @@ impl Answer {
         PyArray1::from_slice(py, &self.answer.part_of_point)
     }
 
+    /// What each object, and each of its parts, was judged by, as JSON text: {"box": {name: value}, "parts": {part: {name: value}}}.
+    fn features_json(&self) -> PyResult<Vec<String>> {
+        let text = |features| serde_json::to_string(features).map_err(|error| PyValueError::new_err(error.to_string()));
+        self.answer.features.iter().map(text).collect()
+    }
+
     #[getter]
     fn free_space(&self) -> bool {
         self.answer.free_space
@@ -157,7 +164,7 @@ fn model_list(models: &[PyRef<'_, ObjectModel>]) -> Vec<inference::ObjectModel> 
 
 /// From a cloud to its objects in one call.
 #[pyfunction]
-#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, sizes=Vec::new()))]
+#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, judgement=None, sizes=Vec::new()))]
 #[allow(clippy::too_many_arguments)]
 fn infer(
     py: Python<'_>,
@@ -170,6 +177,7 @@ fn infer(
     perception: Option<&Bound<'_, PyDict>>,
     search: Option<&Bound<'_, PyDict>>,
     fitted: bool,
+    judgement: Option<&str>,
     sizes: Vec<(String, [f64; 3])>,
 ) -> PyResult<(Perception, Answer)> {
     let points = rows_of_three(&points, width, height)?;
@@ -178,8 +186,9 @@ fn infer(
     let search = search_settings(search)?;
     let models = model_list(&models);
     let cloud = CloudView { points, width, height, viewpoint: viewpoint.map(Vec3::from) };
+    let judgement = judgement.map(Judgement::from_json).transpose().map_err(to_python)?;
     let sizes = known_sizes(&sizes)?;
-    let bodies = if fitted { Bodies::Fitted(&cloud, &sizes) } else { Bodies::Rectangles };
+    let bodies = if fitted { Bodies::Fitted(&cloud, judgement.as_ref(), &sizes) } else { Bodies::Rectangles };
     let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies));
     let (scene, answer) = inferred.map_err(to_python)?;
     Ok((Perception { scene, point_count: points.len() }, Answer { answer }))
@@ -236,20 +245,10 @@ fn describe(
         }
         found.push((set.clone(), inference::FoundObject::of_assignment(&model.model, &set, assignment)));
     }
-    let bodies = if fitted { Bodies::Fitted(&cloud, &[]) } else { Bodies::Rectangles };
+    let bodies = if fitted { Bodies::Fitted(&cloud, None, &[]) } else { Bodies::Rectangles };
     let models = std::slice::from_ref(&model.model);
     let answer = py.detach(|| pipeline::describe(scene, points.len(), models, &found, bodies));
     Ok(Answer { answer })
-}
-
-/// DEBUG
-#[pyfunction]
-fn debug_shells(points: PyReadonlyArray2<'_, f32>, width: usize, height: usize, viewpoint: [f64; 3], mode: usize) -> PyResult<Vec<(Vec<[f64; 3]>, f64, f64)>> {
-    let points = rows_of_three(&points, width, height)?;
-    let settings = PerceptionSettings::default();
-    let cloud = CloudView { points, width, height, viewpoint: Some(Vec3::from(viewpoint)) };
-    let scene = boxwright_core::perception::perceive(&cloud, &settings).map_err(to_python)?;
-    Ok(boxwright_core::open_box::debug(&cloud, &scene, &settings, mode))
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -258,7 +257,6 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<Answer>()?;
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
     m.add_function(wrap_pyfunction!(check_sizes, m)?)?;
-    m.add_function(wrap_pyfunction!(debug_shells, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
     m.add_function(wrap_pyfunction!(describe, m)?)?;
     m.add_function(wrap_pyfunction!(understand, m)?)

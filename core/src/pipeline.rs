@@ -1,6 +1,9 @@
 //! The paper's way through: from a cloud to articulated objects in one call.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
+
+use serde::Serialize;
 
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
@@ -10,7 +13,7 @@ use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
 use crate::model::{Assignment, Body, SegmentSet};
-use crate::open_box;
+use crate::open_box::{self, Judgement};
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -19,8 +22,9 @@ use crate::perception::{perceive, PerceptionSettings, Scene};
 pub enum Bodies<'a> {
     /// Read off the segments' rectangles, as the paper's method does.
     Rectangles,
-    /// Fitted to the readings of this cloud; boxes that have one of these sizes are of it.
-    Fitted(&'a CloudView<'a>, &'a [KnownSize]),
+    /// Fitted to the readings of this cloud; what speaks for a box is weighed as the judgement says, if there is one, and boxes
+    /// that have one of these sizes are of it.
+    Fitted(&'a CloudView<'a>, Option<&'a Judgement>, &'a [KnownSize]),
 }
 
 const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
@@ -39,6 +43,16 @@ pub struct Answer {
     pub free_space: bool,
     /// Seconds of each stage, in order.
     pub stage_seconds: Vec<(&'static str, f64)>,
+    /// What each object, and each of its parts, was judged by; of boxes judged by the depth image alone.
+    pub features: Vec<ObjectFeatures>,
+}
+
+/// Of an object, and of its parts that have readings.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ObjectFeatures {
+    #[serde(rename = "box")]
+    pub of_box: BTreeMap<&'static str, f64>,
+    pub parts: BTreeMap<String, BTreeMap<&'static str, f64>>,
 }
 
 /// From a cloud to its objects: perception, inference, bodies.
@@ -53,15 +67,15 @@ pub fn infer(
     bodies: Bodies,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
-    if let Bodies::Fitted(_, sizes) = bodies {
+    if let Bodies::Fitted(_, judgement, sizes) = bodies {
         let readings = Readings::new(cloud, perception);
-        if let Some(mut answer) = whole_boxes(cloud, &scene, &readings, models, sizes) {
+        if let Some(mut answer) = whole_boxes(cloud, &scene, &readings, models, judgement, sizes) {
             answer.warnings.extend(size_warnings(&answer.objects, sizes));
             return Ok((scene, answer));
         }
     }
     let mut answer = understand(&scene, cloud.points.len(), models, search, bodies)?;
-    if let Bodies::Fitted(_, sizes) = bodies {
+    if let Bodies::Fitted(_, _, sizes) = bodies {
         answer.warnings.extend(size_warnings(&answer.objects, sizes));
     }
     if search.search == SearchMethod::Exact {
@@ -75,7 +89,14 @@ pub fn infer(
 }
 
 /// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint.
-fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[ObjectModel], sizes: &[KnownSize]) -> Option<Answer> {
+fn whole_boxes(
+    cloud: &CloudView,
+    scene: &Scene,
+    readings: &Readings,
+    models: &[ObjectModel],
+    judgement: Option<&Judgement>,
+    sizes: &[KnownSize],
+) -> Option<Answer> {
     let start = Instant::now();
     let settings = FitSettings::default();
     let sight = open_box::Sight::new(cloud, readings, scene)?;
@@ -87,15 +108,25 @@ fn whole_boxes(cloud: &CloudView, scene: &Scene, readings: &Readings, models: &[
         warnings: Vec::new(),
         free_space: true,
         stage_seconds: Vec::new(),
+        features: Vec::new(),
     };
     for one in &found {
-        let Some((object, parts)) = open_box::answer(one, &models[models.len().min(2) - 1].template, &sight, sizes, &settings) else { continue };
+        let template = &models[models.len().min(2) - 1].template;
+        let Some((object, parts)) = open_box::answer(one, template, &sight, sizes, &settings, judgement) else {
+            continue;
+        };
+        if object.probability.is_some_and(|p| p < 0.5) {
+            continue;
+        }
         for (part, points) in parts {
             for point in points {
                 answer.object_of_point[point as usize] = answer.objects.len() as i16;
                 answer.part_of_point[point as usize] = part as i16;
             }
         }
+        let by_name = |features: &open_box::Features| features.iter().copied().collect();
+        let parts = one.part_features.iter().map(|(role, features)| (role.name(), by_name(features)));
+        answer.features.push(ObjectFeatures { of_box: by_name(&one.features), parts: parts.collect() });
         answer.objects.push(object);
     }
     answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
@@ -176,6 +207,7 @@ pub fn describe(
         warnings: Vec::new(),
         free_space: false,
         stage_seconds: Vec::new(),
+        features: Vec::new(),
     };
     let mut fit_seconds = 0.0;
     for (set, object) in found {
@@ -184,7 +216,7 @@ pub fn describe(
         let name = format!("object {} ({})", answer.objects.len(), template.name);
         if built.pose.is_none() && template.body != Body::Free {
             answer.warnings.push(format!("{name}: {NO_POSE}"));
-        } else if let (Bodies::Fitted(cloud, sizes), Body::OpenBox(_)) = (bodies, &template.body) {
+        } else if let (Bodies::Fitted(cloud, _, sizes), Body::OpenBox(_)) = (bodies, &template.body) {
             let start = Instant::now();
             match fit_object(&built, template, scene, set, &assignment, cloud, sizes, &FitSettings::default()) {
                 Ok(fitted) => (built, assignment) = fitted,

@@ -179,6 +179,9 @@ class ObjectModel:
 class Answer:
     """What was understood of a cloud of N points."""
 
+    def features_json(self) -> list[str]:
+        """What each object and each of its parts was judged by: {"box": {name: value}, "parts": {part: {name: value}}}."""
+
     def objects_json(self) -> list[str]:
         """The objects as JSON text, best first, keys as in docs/formats.md."""
 
@@ -215,11 +218,12 @@ def infer(
     perception: dict[str, float | str] | None = None,
     search: dict[str, float | str] | None = None,
     fitted: bool = False,
+    judgement: str | None = None,
     sizes: list[tuple[str, tuple[float, float, float]]] = ...,
 ) -> tuple[Perception, Answer]:
     """From a cloud to its objects in one call, bodies fitted or of rectangles.
 
-    Raises ValueError where the cloud cannot be used, with the mend.
+    `judgement` is the text of a judgement file; without one every fitted box is told. Raises ValueError where the cloud cannot be used, with the mend.
     """
 
 def describe(

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from boxwright import _core
-from boxwright.models import TEMPLATE_NAMES, load_object_model, shipped_for
+from boxwright.models import TEMPLATE_NAMES, load_judgement, load_object_model, shipped_for
 from boxwright.perception import chosen
 from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
 from boxwright.types import Cloud, KnownSize
@@ -101,6 +101,7 @@ def infer(
         search=settings,
         fitted=method == "fitted",
         sizes=[(size.name, size.outer) for size in sizes],
+        judgement=load_judgement() if method == "fitted" else None,
     )
     objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
     total = time.perf_counter() - start

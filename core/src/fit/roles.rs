@@ -19,6 +19,16 @@ impl Role {
         out
     }
 
+    /// What shipped templates call it.
+    pub fn name(self) -> String {
+        match self {
+            Self::Base => "base".to_owned(),
+            Self::Side(k) => format!("side_{k}"),
+            Self::Flap(k) => format!("flap_{k}"),
+            Self::Tuck(k) => format!("tuck_{k}"),
+        }
+    }
+
     /// The number of the side that it is or hangs on.
     pub fn side(self) -> usize {
         match self {

@@ -2,8 +2,9 @@ use std::collections::BTreeMap;
 
 use super::find::FoundBox;
 use super::hidden::unseen_parts;
+use super::judgement::{probability, Judgement};
 use super::sight::Sight;
-use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer};
+use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer, ScoreTermAnswer};
 use crate::fit::{fill, FitSettings, KnownSize, Role, Solution};
 use crate::free_space::PartState;
 use crate::model::{Body, Template};
@@ -15,6 +16,7 @@ pub fn answer(
     sight: &Sight,
     sizes: &[KnownSize],
     settings: &FitSettings,
+    judgement: Option<&Judgement>,
 ) -> Option<(ObjectAnswer, Vec<(usize, Vec<u32>)>)> {
     let Body::OpenBox(box_roles) = &template.body else { return None };
     let roles = Role::of_parts(box_roles);
@@ -23,7 +25,9 @@ pub fn answer(
     let mut readings = Vec::new();
     for &(part, role) in &roles {
         let points = found.labels.of(role);
-        if points.is_empty() {
+        let features = found.part_features.iter().find(|(r, _)| *r == role).map(|(_, features)| features);
+        parts[part].probability = judgement.zip(features).map(|(judgement, f)| judgement.part_probability(f));
+        if points.is_empty() || parts[part].probability.is_some_and(|p| p < 0.5) {
             continue;
         }
         seen[part] = true;
@@ -33,13 +37,23 @@ pub fn answer(
     let mut body = found.solution.body.clone();
     body.input_from_object = sight.input_from_level * body.input_from_object;
     let solution = Solution { body, covariance: found.solution.covariance.clone() };
+    for k in 0..4 {
+        // A flap on a flap that was not seen hangs on nothing.
+        let (Some(flap), Some(tuck)) = (box_roles.flaps[k], box_roles.tucks[k]) else { continue };
+        if seen[tuck] && !seen[flap] {
+            seen[tuck] = false;
+            parts[tuck].points = 0;
+            readings.retain(|(part, _)| *part != tuck);
+        }
+    }
+    let judged = judgement.map(|judgement| judgement.of_box(&found.features));
     let mut object = ObjectAnswer {
         template: template.name.clone(),
         template_probability: None,
-        score: found.score,
-        probability: None,
+        score: judged.as_ref().map_or(found.score, |(log_odds, _)| *log_odds),
+        probability: judged.as_ref().map(|(log_odds, _)| probability(*log_odds)),
         inference: InferenceAnswer::new(f64::INFINITY, 0),
-        score_terms: Vec::new(),
+        score_terms: judged.map_or_else(Vec::new, |(_, terms)| terms.into_iter().map(term).collect()),
         dimensions: None,
         outer_dimensions: None,
         thickness: None,
@@ -62,6 +76,10 @@ pub fn answer(
         object.parts[part].seen_from = told.seen_from.map(|d| (sight.input_from_level.rotation * d).into());
     }
     Some((object, readings))
+}
+
+fn term((name, value, weight): (&'static str, f64, f64)) -> ScoreTermAnswer {
+    ScoreTermAnswer { name: name.to_owned(), kind: "evidence", value, weight, contribution: weight * value }
 }
 
 fn blank(name: &str) -> PartAnswer {

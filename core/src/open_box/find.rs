@@ -1,6 +1,7 @@
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
 use super::evidence::{Evidence, Sheet};
+use super::features::{self, Features};
 use super::flap_scan::{scan, HingeLine, ScanRange, ScannedFlap};
 use super::lean::lean;
 use super::patch::Patch;
@@ -26,6 +27,8 @@ pub struct FoundBox {
     pub score: f64,
     /// The given size that comes nearest.
     pub size: Option<SizeMatch>,
+    pub features: Features,
+    pub part_features: Vec<(Role, Features)>,
 }
 
 /// Of proposals that lie upon each other so many are looked at closely.
@@ -75,7 +78,7 @@ pub fn find(sight: &Sight, scene: &Scene, sizes: &[KnownSize], settings: &FitSet
 
 /// How well proposals and fitted bodies are known, beside the noise.
 const COARSE_M: f64 = 0.007;
-const FINE_M: f64 = 0.004;
+pub const FINE_M: f64 = 0.004;
 
 /// Proposals that the rays bear out, distinct, best first.
 pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
@@ -286,7 +289,14 @@ fn finish(sight: &Sight, found: FoundBox, sizes: &[KnownSize], settings: &FitSet
     let solution = refit(sight, &body, &present, &labels, settings).ok()?;
     let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
     check(&solution.body).ok()?;
-    Some(FoundBox { size, ..weigh(sight, solution, present, 1) })
+    let mut out = FoundBox { size, ..weigh(sight, solution, present, 1) };
+    out.features = features::of_box(sight, &out);
+    let of = |(role, evidence): &(Role, Evidence)| {
+        let points = out.labels.of(*role);
+        (!points.is_empty()).then(|| (*role, features::of_part(sight, &out.solution.body, *role, points, evidence)))
+    };
+    out.part_features = out.evidence.iter().filter_map(of).collect();
+    Some(out)
 }
 
 /// Readings on its panels, each counted once, less twice those through them, less those that close the opening and are of no
@@ -311,7 +321,7 @@ fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize) -> 
     let look = |role: Role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M));
     let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(look).collect();
     let score = score(sight, &solution.body, &labels, &evidence);
-    FoundBox { solution, present, labels, evidence, score, size: None }
+    FoundBox { solution, present, labels, evidence, score, size: None, features: Vec::new(), part_features: Vec::new() }
 }
 
 /// Readings are shared by cells of so many pixels: boxes were not asked at the same ones.
@@ -338,33 +348,4 @@ fn choose(mut found: Vec<FoundBox>, width: usize) -> Vec<FoundBox> {
         }
     }
     out
-}
-
-pub fn debug(cloud: &crate::cloud::CloudView, scene: &Scene, settings: &crate::perception::PerceptionSettings, mode: usize) -> Vec<(Vec<[f64; 3]>, f64, f64)> {
-    let readings = crate::perception::readings::Readings::new(cloud, settings);
-    let Some(sight) = Sight::new(cloud, &readings, scene) else { return Vec::new() };
-    let corners = |p: &Proposal| -> Vec<[f64; 3]> {
-        (0..8).map(|c: usize| {
-            let at = p.axes[0] * p.spans[0][c & 1] + p.axes[1] * p.spans[1][c >> 1 & 1] + p.up * p.heights[c >> 2];
-            sight.input_from_level.transform_point(&at.into()).coords.into()
-        }).collect()
-    };
-    if mode == 0 {
-        let patches = Patch::of_things(scene, &sight);
-        let rays = Rays::new(&sight);
-        let mut out = Vec::new();
-        for proposal in all_proposals(&patches) {
-            let looked = rays.look(&sight, &proposal);
-            out.push((corners(&proposal), looked.score(), 0.0));
-        }
-        out.sort_by(|a, b| b.1.total_cmp(&a.1));
-        return out;
-    }
-    shells(&sight, scene).iter().map(|mut_shell| {
-        let mut s = mut_shell.clone();
-        let body = body_of(&s.proposal);
-        s.flaps = scan_flaps(&sight, &body, COARSE_M);
-        let total = s.score + s.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
-        (corners(&s.proposal), s.score, total)
-    }).collect()
 }

@@ -118,15 +118,17 @@ pub struct ScanRange {
 }
 
 const HALF_BOARD_M: f64 = 0.003;
-const STEP_RAD: f64 = 0.05;
+const STEP_RAD: f64 = 0.06;
 /// Ways from the hinge at which all angles are asked.
-const NEAR_M: [f64; 5] = [0.012, 0.018, 0.026, 0.036, 0.048];
+const NEAR_M: [f64; 4] = [0.013, 0.021, 0.032, 0.047];
 const COLUMNS: usize = 12;
+/// Of these so many are asked at all angles.
+const NEAR_COLUMNS: usize = 6;
 /// Left out at each end of the edge, share of its half.
 const END_SHARE: f64 = 0.08;
 const PEAKS: usize = 4;
 /// Rows by which a board is followed from its hinge.
-const ROW_M: f64 = 0.004;
+const ROW_M: f64 = 0.005;
 const LEAST_MET_SHARE: f64 = 0.4;
 /// A board is given up after so much of its way without a reading on it.
 const MOST_GAP_M: f64 = 0.03;
@@ -150,15 +152,15 @@ pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<Scann
     })
 }
 
-fn columns(hinge: &HingeLine) -> impl Iterator<Item = f64> {
+fn columns(hinge: &HingeLine, count: usize) -> impl Iterator<Item = f64> {
     let half = hinge.half_m * (1.0 - END_SHARE);
-    (0..COLUMNS).map(move |i| half * ((2 * i + 1) as f64 / COLUMNS as f64 - 1.0))
+    (0..count).map(move |i| half * ((2 * i + 1) as f64 / count as f64 - 1.0))
 }
 
 fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, model_m: f64) -> f64 {
     let (way, normal) = hinge.directions(angle);
     let mut score = 0.0;
-    for column in columns(hinge) {
+    for column in columns(hinge, NEAR_COLUMNS) {
         for reach in NEAR_M {
             let point = hinge.middle + hinge.along * column + way * reach;
             score += match hinge.ask(sight, &point, &normal, model_m).0 {
@@ -235,7 +237,7 @@ fn walk(sight: &Sight, hinge: &HingeLine, flap: &ScannedFlap, longest_m: f64, mo
         let (mut met, mut through, mut hidden) = (0.0, 0.0, 0.0);
         let middle = hinge.middle + way * reach + normal * height;
         let pixels = sight.pixels(&middle, &normal, ROW_M * column_m);
-        for column in columns(hinge) {
+        for column in columns(hinge, COLUMNS) {
             match hinge.ask(sight, &(middle + hinge.along * column), &tilted, model_m) {
                 (Says::Met, Some(reading)) => {
                     met += pixels;

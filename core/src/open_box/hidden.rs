@@ -18,13 +18,13 @@ pub struct Unseen {
     pub seen_from: Option<Vec3>,
 }
 
-/// Parts of a box that have no readings, of `wanted`; tuck flaps only where the box has them.
-pub fn unseen_parts(found: &FoundBox, sight: &Sight, wanted: &[Role]) -> Vec<Unseen> {
+/// Of the parts of a box that were not seen, `unseen`; tuck flaps only where the box has them.
+pub fn unseen_parts(found: &FoundBox, sight: &Sight, unseen: &[Role]) -> Vec<Unseen> {
     let body = &found.solution.body;
     let there: Vec<Role> = roles(&found.present);
     let surroundings = Surroundings::new(sight, body, &there);
     let mut out = Vec::new();
-    for &role in wanted.iter().filter(|role| found.labels.of(**role).is_empty()) {
+    for &role in unseen {
         let known = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, evidence)| PartState::of(&evidence.looked()));
         let (state, poses) = match (known, role) {
             (Some(state), _) => (state, vec![(body.clone(), 1.0)]),

@@ -3,9 +3,11 @@
 mod answer;
 mod ends;
 mod evidence;
+mod features;
 mod find;
 mod flap_scan;
 mod hidden;
+mod judgement;
 mod lean;
 mod next_view;
 mod patch;
@@ -19,5 +21,7 @@ mod upright;
 mod yaw;
 
 pub use answer::answer;
-pub use find::{debug, find, shells, FoundBox, Shell};
+pub use features::Features;
+pub use judgement::Judgement;
+pub use find::{find, shells, FoundBox, Shell};
 pub use sight::Sight;

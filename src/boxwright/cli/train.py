@@ -23,10 +23,15 @@ LEARNER_OF_METHOD: dict[str, Literal["ridge", "margin", "likelihood"]] = {
 
 def train(
     folders: Annotated[list[Path], typer.Argument(metavar="SET...", help="Folders of labelled frames.")],
-    template: Annotated[
-        str, typer.Option("--template", metavar="NAME|FILE.toml", help="Template whose weights are learned.")
-    ],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE", help="Weights file to write.")],
+    template: Annotated[
+        str | None,
+        typer.Option(
+            "--template",
+            metavar="NAME|FILE.toml",
+            help="Template whose weights are learned. The method fitted judges boxes of every template and takes none.",
+        ),
+    ] = None,
     category: Annotated[
         list[str] | None,
         typer.Option("--category", help="Learn from frames of this category alone; repeatable. Default: all."),
@@ -68,6 +73,8 @@ def train(
 
     boxwright infer frame.pcd -o out --template carton --weights carton.json
 
+    boxwright train train_set empty_set --method fitted -o judgement.json
+
     boxwright train ten_frames --template tote.toml --method exact --prior carton --leave-one-out -o tote.json
     """
     import shlex
@@ -80,6 +87,11 @@ def train(
     from boxwright.pipeline import DEFAULT_METHOD, PLANES_OF_METHOD
 
     method = method or DEFAULT_METHOD
+    if method == "fitted":
+        learn_judgement_of(folders, output, jobs, as_json)
+        return
+    if template is None:
+        raise typer.BadParameter("name the template whose weights are learned", param_hint="--template")
     planes = planes or PLANES_OF_METHOD[method]
     shipped = shipped_for(method, PLANES_OF_METHOD[method])
     loaded = load_template(template, shipped)
@@ -103,6 +115,34 @@ def train(
         print_learned(learned, output)
     if refused:
         raise typer.Exit(1)
+
+
+def learn_judgement_of(folders: list[Path], output: Path, jobs: int | None, as_json: bool) -> None:
+    """Learns by what fitted boxes are judged, and tells it."""
+    import shlex
+    import sys
+
+    import msgspec
+
+    from boxwright.evaluation import list_set
+    from boxwright.learning import learn_judgement
+    from boxwright.parallel import processors
+
+    learned = learn_judgement(
+        [entry for folder in folders for entry in list_set(folder)],
+        command=shlex.join(["boxwright", *sys.argv[1:]]),
+        jobs=jobs or processors(),
+        progress=lambda line: print(line, file=sys.stderr, flush=True),
+    )
+    learned.save(output)
+    report = learned.training
+    if as_json:
+        print(msgspec.json.encode(learned).decode())
+    else:
+        print(
+            f"{output}: learned on {report.frames} frames, {report.boxes} boxes of which {report.false_boxes} false, "
+            f"{report.parts} panels of which {report.wrong_parts} wrong"
+        )
 
 
 def _see(

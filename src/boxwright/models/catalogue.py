@@ -20,7 +20,7 @@ _WEIGHTS = msgspec.json.Decoder(LearnedWeights)
 EXACT = "exact"
 """What is shipped for the method of that name: templates with further terms, and weights for the default front end."""
 FITTED = "fitted"
-"""The method that adds fitted bodies to "exact": nothing is shipped for it alone."""
+"""The method that fits bodies: its boxes are judged by weights of their own."""
 
 
 def shipped_for(method: str, planes: str) -> str:
@@ -37,6 +37,11 @@ def shipped_for(method: str, planes: str) -> str:
             " leave planes out, or name a template and its weights"
         )
     return EXACT
+
+
+def load_judgement() -> str:
+    """The text of the shipped weights by which fitted boxes are judged; the core reads it."""
+    return _read_text(_HERE / "weights" / FITTED / "judgement.json")
 
 
 def _template_path(name_or_path: str | Path, shipped: str | None) -> Path:

@@ -1,0 +1,163 @@
+"""Learns how a fitted box, and each of its panels, is judged: two logistic regressions (docs/maths.md, eq. 88)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from boxwright import _core
+from boxwright.evaluation import Answer, BoxScore, LabelledFrame, SetEntry, read_entry, score_answer
+from boxwright.io.clouds import read_cloud
+from boxwright.io.labels import PointLabels
+from boxwright.models import load_object_model
+from boxwright.parallel import ordered_map
+from boxwright.types.model import Object
+
+RIDGE = 0.5
+"""Weight of the squared coefficients, of features scaled to a spread of 1, against one example."""
+STEPS = 60
+RIGHT_SHARE = 0.5
+"""A box is right when its right less its wrong panels are at least this share of those in the cloud."""
+
+_OBJECT = msgspec.json.Decoder(Object)
+
+
+class Features(msgspec.Struct, frozen=True):
+    """What one object, and each of its parts, is judged by, by name."""
+
+    box: dict[str, float]
+    parts: dict[str, dict[str, float]]
+
+
+_FEATURES = msgspec.json.Decoder(Features)
+
+
+class JudgementReport(msgspec.Struct, frozen=True, kw_only=True):
+    """How a judgement came to be."""
+
+    command: str
+    frames: int
+    boxes: int
+    false_boxes: int
+    parts: int
+    wrong_parts: int
+
+
+class LearnedJudgement(msgspec.Struct, frozen=True, kw_only=True):
+    """Weights by the features' names; log odds are their sums (`boxwright.judgement`, version 1)."""
+
+    box: dict[str, float]
+    part: dict[str, float]
+    training: JudgementReport
+    format: Literal["boxwright.judgement"] = "boxwright.judgement"
+    version: Literal[1] = 1
+
+    def save(self, path: str | Path) -> None:
+        """Writes the weights as JSON."""
+        Path(path).write_bytes(msgspec.json.format(msgspec.json.encode(self), indent=1) + b"\n")
+
+
+class Examples(msgspec.Struct, frozen=True):
+    """Of one frame: features and whether what they tell of is right."""
+
+    boxes: tuple[tuple[dict[str, float], bool], ...]
+    parts: tuple[tuple[dict[str, float], bool], ...]
+
+
+def learn_judgement(
+    entries: Sequence[SetEntry], *, command: str, jobs: int, progress: Callable[[str], None] = lambda line: None
+) -> LearnedJudgement:
+    """Weights from labelled frames, with boxes and without; the same frames give the same weights.
+
+    Raises ValueError where a frame cannot be used, or where the frames hold no right box or no false one.
+    """
+    examples = list(_seen(entries, jobs, progress))
+    boxes = [example for frame in examples for example in frame.boxes]
+    parts = [example for frame in examples for example in frame.parts]
+    for name, found in (("box", boxes), ("part", parts)):
+        if len({is_right for _, is_right in found}) < 2:
+            raise ValueError(f"the frames show no right and wrong {name} to tell apart; add frames, empty ones too")
+    return LearnedJudgement(
+        box=fit_logistic(boxes),
+        part=fit_logistic(parts),
+        training=JudgementReport(
+            command=command,
+            frames=len(entries),
+            boxes=len(boxes),
+            false_boxes=sum(not is_right for _, is_right in boxes),
+            parts=len(parts),
+            wrong_parts=sum(not is_right for _, is_right in parts),
+        ),
+    )
+
+
+def _seen(entries: Sequence[SetEntry], jobs: int, progress: Callable[[str], None]) -> Iterator[Examples]:
+    # Of the templates only the names of the parts are used: this one has all that a box may have.
+    _, model = load_object_model("cake_box", None, "exact")
+    for done, examples in enumerate(ordered_map(lambda entry: examples_of(entry, model), entries, jobs), 1):
+        if done % 50 == 0:
+            progress(f"{done} of {len(entries)} frames")
+        yield examples
+
+
+def examples_of(entry: SetEntry, model: _core.ObjectModel) -> Examples:
+    """What is found in one frame before anything is judged, and whether it is right."""
+    frame = read_entry(entry)
+    cloud = read_cloud(entry.cloud_path)
+    _, answer = _core.infer(
+        cloud.points, cloud.width, cloud.height, [model], viewpoint=cloud.viewpoint, fitted=True
+    )
+    objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
+    features = tuple(_FEATURES.decode(text) for text in answer.features_json())
+    labels = PointLabels(object=answer.object_labels, part=answer.part_labels)
+    boxes = score_answer(frame, Answer(objects=objects, labels=labels)).boxes
+    of_object = {box.object: box for box in boxes if box.object is not None}
+    asked, parts = [], []
+    for k, told in enumerate(features):
+        box = of_object.get(k)
+        if box is None:
+            if not _is_small_box(frame, answer.object_labels == k):
+                asked.append((told.box, False))
+            continue
+        is_right = box.panels_right - box.panels_wrong >= RIGHT_SHARE * box.panels_in_cloud
+        asked.append((told.box, is_right))
+        if is_right:
+            parts += _parts(told, box)
+    return Examples(tuple(asked), tuple(parts))
+
+
+def _parts(told: Features, box: BoxScore) -> Iterator[tuple[dict[str, float], bool]]:
+    verdicts = {verdict.name: verdict.verdict for verdict in box.verdicts}
+    for name, features in told.parts.items():
+        if verdicts.get(name, "neither") != "neither":
+            yield features, verdicts[name] == "right"
+
+
+def _is_small_box(frame: LabelledFrame, mask: NDArray[np.bool_]) -> bool:
+    """Whether it lies mostly on a true box, which has too few readings to be asked for, or another object."""
+    on_panels = np.asarray(frame.labels).ravel()[mask] > 0
+    return bool(on_panels.size) and float(on_panels.mean()) > 0.5
+
+
+def fit_logistic(examples: Sequence[tuple[dict[str, float], bool]]) -> dict[str, float]:
+    """Weights of a logistic regression by Newton's method; the feature `one` is the constant and is not held down."""
+    names = list(examples[0][0])
+    x = np.array([[features[name] for name in names] for features, _ in examples])
+    y = np.array([is_right for _, is_right in examples], float)
+    scale = np.where(x.std(axis=0) > 1e-9, x.std(axis=0), 1.0)
+    constant = np.array([name == "one" for name in names])
+    scale[constant] = 1.0
+    scaled = x / scale
+    held = np.where(constant, 1e-6, RIDGE)
+    weights = np.zeros(len(names))
+    for _ in range(STEPS):
+        p = 1.0 / (1.0 + np.exp(-(scaled @ weights)))
+        gradient = scaled.T @ (p - y) + held * weights
+        curvature = (scaled.T * (p * (1.0 - p))) @ scaled + np.diag(held)
+        weights -= np.linalg.solve(curvature, gradient)
+    return dict(zip(names, (weights / scale).tolist(), strict=True))
