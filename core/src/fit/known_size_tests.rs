@@ -72,9 +72,8 @@ fn conditioning_is_one_more_residual_for_each_dimension() {
             }
             let covariance = information.try_inverse().unwrap();
             let step = &covariance * gradient;
-            let error = (0..PARAMETER_COUNT).skip(6).map(|i| {
-                (after.body.numbers[i] - before.body.numbers[i] - step[i]).abs()
-            });
+            let error =
+                (0..PARAMETER_COUNT).skip(6).map(|i| (after.body.numbers[i] - before.body.numbers[i] - step[i]).abs());
             assert!(error.fold(0.0, f64::max) < 1e-9);
             assert!((&after.covariance * (scale * scale) - covariance).amax() < 1e-10);
             for (now, size) in outer_m(&after.body).iter().zip(told) {

@@ -23,8 +23,11 @@ pub fn size_warnings(objects: &[ObjectAnswer], sizes: &[KnownSize]) -> Vec<Strin
 fn strangers<'a>(objects: &'a [ObjectAnswer], sizes: &'a [KnownSize]) -> impl Iterator<Item = String> + 'a {
     objects.iter().enumerate().filter(|(_, object)| object.size.is_none()).map(|(number, object)| {
         let name = format!("object {number} ({})", object.template);
-        let measured = object.outer_dimensions.and_then(|outer_m| Some((outer_m, best_match_within(outer_m, 0.0, sizes)?)));
-        let Some((outer_m, nearest)) = measured else { return format!("{name} has no dimensions to match a size with") };
+        let measured =
+            object.outer_dimensions.and_then(|outer_m| Some((outer_m, best_match_within(outer_m, 0.0, sizes)?)));
+        let Some((outer_m, nearest)) = measured else {
+            return format!("{name} has no dimensions to match a size with");
+        };
         let near = format!("{} ({})", sizes[nearest.size].name, millimetres(&nearest.outer_m));
         format!("{name} is {} outside and of no given size; the nearest is {near}", millimetres(&outer_m))
     })

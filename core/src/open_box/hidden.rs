@@ -25,7 +25,8 @@ pub fn unseen_parts(found: &FoundBox, sight: &Sight, unseen: &[Role]) -> Vec<Uns
     let surroundings = Surroundings::new(sight, body, &there);
     let mut out = Vec::new();
     for &role in unseen {
-        let known = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, evidence)| PartState::of(&evidence.looked()));
+        let known =
+            found.evidence.iter().find(|(r, _)| *r == role).map(|(_, evidence)| PartState::of(&evidence.looked()));
         let (state, poses) = match (known, role) {
             (Some(state), _) => (state, vec![(body.clone(), 1.0)]),
             (None, Role::Flap(k)) => {

@@ -78,7 +78,9 @@ impl<'a> Surroundings<'a> {
             let cos = ray.dot(&sample.normal);
             // Off the board's middle, on the side that is looked at.
             let start = sample.point + sample.normal * (OWN_M * cos.signum());
-            cos.abs() > LEAST_COS && !self.panel_before(role, &start, &ray, range_m) && !self.surface_before(&start, &ray)
+            cos.abs() > LEAST_COS
+                && !self.panel_before(role, &start, &ray, range_m)
+                && !self.surface_before(&start, &ray)
         };
         samples.iter().filter(is_seen).map(|sample| sample.weight).sum()
     }
