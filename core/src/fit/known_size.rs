@@ -18,11 +18,11 @@ pub struct KnownSize {
 /// What a person's rule, and boxes of one kind among themselves, err by.
 const SIZE_SIGMA_M: f64 = 0.001;
 /// How far a fit may be off beside its own standard deviations, and still be of a box of that size.
-const MATCH_SIGMA_M: f64 = 0.006;
+const MATCH_SIGMA_M: f64 = 0.004;
 /// Chi-squared of three numbers, exceeded once in a thousand.
 const MOST_CHI2: f64 = 16.27;
 /// A box of no given size keeps this share of its score among its rivals.
-const SHARE_OF_OTHERS: f64 = 0.7;
+const SHARE_OF_OTHERS: f64 = 0.8;
 /// Boxes smaller or larger than this are not looked for: the unit is wrong.
 const SIZES_M: [f64; 2] = [0.01, 3.0];
 
