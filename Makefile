@@ -15,7 +15,7 @@ FUZZ_TARGETS = $(basename $(notdir $(wildcard core/fuzz/fuzz_targets/*.rs)))
 SHELL := bash
 .SHELLFLAGS := -eu -o pipefail -c
 
-.PHONY: help tools setup demo test check bench dist fuzz weights weights-of weights-exact evaluate experiments lock schemas
+.PHONY: help tools setup demo test check bench dist fuzz weights weights-of weights-exact weights-fitted evaluate experiments lock schemas
 
 help: ## This list
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*##/\t/' | expand -t 12
@@ -89,6 +89,7 @@ weights: setup ## Make the training frames and learn the shipped weights anew (a
 	$(MAKE) --no-print-directory weights-of PLANES=grid
 	$(MAKE) --no-print-directory weights-of PLANES=ransac
 	$(MAKE) --no-print-directory weights-exact
+	$(MAKE) --no-print-directory weights-fitted
 
 # Each front end breaks panels in its own way: the weights are learnt on what it finds.
 weights-of:
@@ -109,6 +110,16 @@ weights-exact:
 		--category cake --category carton --category none --method exact -o $(WEIGHTS)/exact/cake_box.json
 	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none --template pizza_box \
 		--category pizza --category cake --category none --method exact -o $(WEIGHTS)/exact/pizza_box.json
+	$(BIN)/boxwright synth $(SETS)/calibrate --count 180 --seed 3
+	$(BIN)/boxwright synth $(SETS)/calibrate_none --count 90 --seed 4 --category none
+	$(BIN)/boxwright calibrate $(SETS)/calibrate $(SETS)/calibrate_none -o $(WEIGHTS)/exact
+
+# What tells templates of fitted boxes apart; totes are no category of the training frames.
+weights-fitted:
+	$(BIN)/boxwright synth $(SETS)/totes --count 30 --seed 4 --category tote
+	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none $(SETS)/totes --template tote \
+		--method exact -o $(WEIGHTS)/exact/tote.json
+	$(BIN)/python -m benchmarks.kinds $(SETS)/train $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 60 without an open box)
 	$(BIN)/boxwright synth $(SETS)/test --count 120 --seed 1000
@@ -120,6 +131,8 @@ evaluate: setup ## Evaluate on simulated frames that no training saw (120, and 6
 	$(BIN)/boxwright evaluate $(SETS)/test --method exact -o out/test_exact.json
 	$(BIN)/boxwright evaluate $(SETS)/test_none --method exact -o out/test_none_exact.json
 	$(BIN)/python benchmarks/calibration.py $(SETS)/test $(SETS)/test_none --figure docs/results/calibration.png
+	$(BIN)/boxwright synth $(SETS)/totes_test --count 20 --seed 1005 --category tote
+	$(BIN)/python -m benchmarks.kinds $(SETS)/test $(SETS)/totes_test -o docs/results/kinds.md
 
 experiments: setup ## The paper's claims measured: tables and pictures in docs/results (half an hour)
 	$(BIN)/python -m benchmarks.experiments

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from benchmarks.experiments import (
     chain,
+    closing,
     conditions,
     keep_fraction,
     left_out,
@@ -35,6 +36,7 @@ EXPERIMENTS = {
     "training_size": training_size,
     "conditions": conditions,
     "plane_stage": plane_stage,
+    "closing": closing,
 }
 RESULTS = Path(__file__).parents[2] / "docs" / "results"
 

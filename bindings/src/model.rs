@@ -4,14 +4,14 @@ use boxwright_core::geometry::Vec3;
 use boxwright_core::inference::SearchSettings;
 use boxwright_core::model;
 use boxwright_core::model::SegmentSet;
+use boxwright_core::open_box::{self, Judgement, SHAPE_FEATURES};
 use boxwright_core::perception::PerceptionSettings;
-use boxwright_core::open_box::Judgement;
 use boxwright_core::pipeline::Bodies;
 use boxwright_core::{inference, pipeline};
-use numpy::{PyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::convert::{named, rows_of_three, to_python};
 use crate::perception::Perception;
@@ -89,6 +89,20 @@ impl ObjectModel {
     }
 }
 
+/// What tells templates of fitted boxes apart, read from JSON text.
+#[pyclass(frozen, module = "boxwright._core")]
+pub struct Kinds {
+    kinds: open_box::Kinds,
+}
+
+#[pymethods]
+impl Kinds {
+    #[new]
+    fn new(weights_json: &str) -> PyResult<Self> {
+        Ok(Self { kinds: open_box::Kinds::from_json(weights_json).map_err(to_python)? })
+    }
+}
+
 /// Refuses settings of the search that do not exist or do not fit, by name.
 #[pyfunction]
 #[pyo3(signature = (**search))]
@@ -110,6 +124,13 @@ impl Answer {
         self.answer.objects.iter().map(text).collect()
     }
 
+    /// What is known of each part of an object (EVIDENCE), none for a part that was not found or summed.
+    fn evidence(&self, object: usize) -> PyResult<Vec<Option<Vec<f64>>>> {
+        let known = self.answer.objects.get(object);
+        let object = known.ok_or_else(|| PyValueError::new_err(format!("object {object} does not exist")))?;
+        Ok((0..object.parts.len()).map(|p| object.evidence(p).map(|values| values.to_vec())).collect())
+    }
+
     #[getter]
     fn object_labels<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i16>> {
         PyArray1::from_slice(py, &self.answer.object_of_point)
@@ -124,6 +145,15 @@ impl Answer {
     fn features_json(&self) -> PyResult<Vec<String>> {
         let text = |features| serde_json::to_string(features).map_err(|error| PyValueError::new_err(error.to_string()));
         self.answer.features.iter().map(text).collect()
+    }
+
+    /// What tells the kind of each object, (objects, features) as `SHAPE_FEATURES`; NaN where no body was fitted.
+    #[getter]
+    fn shapes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let shapes = &self.answer.shapes;
+        let nothing = [f64::NAN; SHAPE_FEATURES.len()];
+        let rows = shapes.iter().flat_map(|shape| shape.map_or(nothing, |shape| shape.features()));
+        PyArray1::from_iter(py, rows).reshape([shapes.len(), SHAPE_FEATURES.len()])
     }
 
     #[getter]
@@ -164,7 +194,7 @@ fn model_list(models: &[PyRef<'_, ObjectModel>]) -> Vec<inference::ObjectModel> 
 
 /// From a cloud to its objects in one call.
 #[pyfunction]
-#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, judgement=None, sizes=Vec::new()))]
+#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, kinds=None, judgement=None, sizes=Vec::new()))]
 #[allow(clippy::too_many_arguments)]
 fn infer(
     py: Python<'_>,
@@ -177,6 +207,7 @@ fn infer(
     perception: Option<&Bound<'_, PyDict>>,
     search: Option<&Bound<'_, PyDict>>,
     fitted: bool,
+    kinds: Option<&Kinds>,
     judgement: Option<&str>,
     sizes: Vec<(String, [f64; 3])>,
 ) -> PyResult<(Perception, Answer)> {
@@ -189,7 +220,8 @@ fn infer(
     let judgement = judgement.map(Judgement::from_json).transpose().map_err(to_python)?;
     let sizes = known_sizes(&sizes)?;
     let bodies = if fitted { Bodies::Fitted(&cloud, judgement.as_ref(), &sizes) } else { Bodies::Rectangles };
-    let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies));
+    let kinds = kinds.map_or_else(open_box::Kinds::default, |told| told.kinds.clone());
+    let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies, &kinds));
     let (scene, answer) = inferred.map_err(to_python)?;
     Ok((Perception { scene, point_count: points.len() }, Answer { answer }))
 }
@@ -252,9 +284,12 @@ fn describe(
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("EVIDENCE", PyTuple::new(m.py(), model::EVIDENCE)?)?;
     m.add_class::<Template>()?;
     m.add_class::<ObjectModel>()?;
     m.add_class::<Answer>()?;
+    m.add_class::<Kinds>()?;
+    m.add("SHAPE_FEATURES", SHAPE_FEATURES.to_vec())?;
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
     m.add_function(wrap_pyfunction!(check_sizes, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;

@@ -30,6 +30,15 @@ impl InputError {
         self
     }
 
+    /// What a TOML text is refused for, with its line.
+    pub fn of_toml(text: &str, error: &toml::de::Error) -> Self {
+        let refused = Self::new(error.message().replace('\n', " "));
+        match error.span() {
+            Some(span) => refused.at(format!("line {}", text[..span.start.min(text.len())].matches('\n').count() + 1)),
+            None => refused,
+        }
+    }
+
     pub fn in_source(mut self, source: impl Into<String>) -> Self {
         self.source = source.into();
         self

@@ -1,9 +1,13 @@
 //! The paper's way through: from a cloud to articulated objects in one call.
 
+mod fitted;
+
 use std::collections::BTreeMap;
 use std::time::Instant;
 
 use serde::Serialize;
+
+use fitted::fitted_boxes;
 
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
@@ -12,8 +16,8 @@ use crate::fit::{fit_object, size_warnings, FitSettings, KnownSize};
 use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
-use crate::model::{Assignment, Body, SegmentSet};
-use crate::open_box::{self, Judgement};
+use crate::model::{Assignment, Body, SegmentSet, Template};
+use crate::open_box::{self, open_boxes, Judgement, Kinds, Shape};
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -39,6 +43,8 @@ pub struct Answer {
     /// For each point the number of its part among that object's parts, -1 for none.
     pub part_of_point: Vec<i16>,
     pub warnings: Vec<String>,
+    /// For each object what tells its kind, where a body was fitted.
+    pub shapes: Vec<Option<Shape>>,
     /// Whether the rays between the camera and the readings were asked for the parts' states.
     pub free_space: bool,
     /// Seconds of each stage, in order.
@@ -65,16 +71,20 @@ pub fn infer(
     models: &[ObjectModel],
     search: &SearchSettings,
     bodies: Bodies,
+    kinds: &Kinds,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
     if let Bodies::Fitted(_, judgement, sizes) = bodies {
         let readings = Readings::new(cloud, perception);
-        if let Some(mut answer) = whole_boxes(cloud, &scene, &readings, models, judgement, sizes) {
+        if let Some(mut answer) = whole_boxes(cloud, &scene, &readings, models, kinds, judgement, sizes) {
             answer.warnings.extend(size_warnings(&answer.objects, sizes));
             return Ok((scene, answer));
         }
     }
-    let mut answer = understand(&scene, cloud.points.len(), models, search, bodies)?;
+    let mut answer = match bodies {
+        Bodies::Fitted(..) => fitted_boxes(&scene, cloud.points.len(), models, search, bodies, kinds)?,
+        Bodies::Rectangles => understand(&scene, cloud.points.len(), models, search, bodies)?,
+    };
     if let Bodies::Fitted(_, _, sizes) = bodies {
         answer.warnings.extend(size_warnings(&answer.objects, sizes));
     }
@@ -88,16 +98,19 @@ pub fn infer(
     Ok((scene, answer))
 }
 
-/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint.
+/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint, and where no template is an open box.
 fn whole_boxes(
     cloud: &CloudView,
     scene: &Scene,
     readings: &Readings,
     models: &[ObjectModel],
+    kinds: &Kinds,
     judgement: Option<&Judgement>,
     sizes: &[KnownSize],
 ) -> Option<Answer> {
     let start = Instant::now();
+    let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
+    open_boxes(&templates).next()?;
     let settings = FitSettings::default();
     let sight = open_box::Sight::new(cloud, readings, scene)?;
     let found = open_box::find(&sight, scene, sizes, &settings);
@@ -106,15 +119,16 @@ fn whole_boxes(
         object_of_point: vec![-1; cloud.points.len()],
         part_of_point: vec![-1; cloud.points.len()],
         warnings: Vec::new(),
+        shapes: Vec::new(),
         free_space: true,
         stage_seconds: Vec::new(),
         features: Vec::new(),
     };
     for one in &found {
-        let template = &models[models.len().min(2) - 1].template;
-        let Some((object, parts)) = open_box::answer(one, template, &sight, sizes, &settings, judgement) else {
-            continue;
-        };
+        let shape = Shape::of_found(one);
+        let Some((number, probability)) = kinds.choose(&shape, &templates) else { continue };
+        let told = open_box::answer(one, templates[number], probability, &sight, sizes, &settings, judgement);
+        let Some((object, parts)) = told else { continue };
         if object.probability.is_some_and(|p| p < 0.5) {
             continue;
         }
@@ -128,12 +142,13 @@ fn whole_boxes(
         let parts = one.part_features.iter().map(|(role, features)| (role.name(), by_name(features)));
         answer.features.push(ObjectFeatures { of_box: by_name(&one.features), parts: parts.collect() });
         answer.objects.push(object);
+        answer.shapes.push(Some(shape));
     }
     answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
     Some(answer)
 }
 
-/// What the rays say of each part with corners; `None` where they say nothing of the cloud.
+/// What the rays say of each part with corners, and probabilities that know it; `None` where they say nothing of the cloud.
 fn tell_states(object: &mut ObjectAnswer, cloud: &CloudView, readings: &Readings) -> Option<()> {
     let facet = |corners: [[f64; 3]; 4]| Facet::new(corners.map(Vec3::from));
     let facets = object.parts.iter().enumerate().filter_map(|(p, part)| Some((p, facet(part.corners?)?)));
@@ -141,6 +156,7 @@ fn tell_states(object: &mut ObjectAnswer, cloud: &CloudView, readings: &Readings
     for (part, looked) in numbers.into_iter().zip(look(cloud, readings, &facets)?) {
         object.parts[part].state = Some(PartState::of(&looked));
     }
+    object.tell_probabilities();
     Some(())
 }
 
@@ -205,6 +221,7 @@ pub fn describe(
         object_of_point: vec![-1; point_count],
         part_of_point: vec![-1; point_count],
         warnings: Vec::new(),
+        shapes: Vec::new(),
         free_space: false,
         stage_seconds: Vec::new(),
         features: Vec::new(),
@@ -218,7 +235,8 @@ pub fn describe(
             answer.warnings.push(format!("{name}: {NO_POSE}"));
         } else if let (Bodies::Fitted(cloud, _, sizes), Body::OpenBox(_)) = (bodies, &template.body) {
             let start = Instant::now();
-            match fit_object(&built, template, scene, set, &assignment, cloud, sizes, &FitSettings::default()) {
+            let (of, settings) = ((set, &assignment), FitSettings::default());
+            match fit_object(&built, template, scene, of, cloud, sizes, &settings) {
                 Ok(fitted) => (built, assignment) = fitted,
                 Err(reason) => {
                     answer.warnings.push(format!("{name}: its body is that of its rectangles, not fitted: {reason}"))
@@ -226,6 +244,7 @@ pub fn describe(
             }
             fit_seconds += start.elapsed().as_secs_f64();
         }
+        built.tell_probabilities();
         answer.add(built, scene, set, &assignment);
     }
     answer.stage_seconds = vec![("body", start.elapsed().as_secs_f64() - fit_seconds)];
@@ -246,5 +265,6 @@ impl Answer {
             }
         }
         self.objects.push(object);
+        self.shapes.push(None);
     }
 }

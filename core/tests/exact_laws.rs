@@ -236,6 +236,55 @@ fn best_score_of_all(template: &Template, tables: &FeatureTables) -> f64 {
     deepen(parts, n, 0.0, &mut Vec::new(), &gain)
 }
 
+/// A template of so many parts that no symmetry ties, each two of them tied by a relation as often as not.
+fn drawn_template(parts: usize, random: &mut Random) -> Template {
+    let names: Vec<String> = (0..parts).map(|p| format!("{{ name = \"p{p}\", class = \"x\" }}")).collect();
+    let head = "format = \"boxwright.template\"\nversion = 1\nname = \"drawn\"\n";
+    let mut text = format!("{head}part = [{}]\n", names.join(", "));
+    for p in 0..parts {
+        text += &format!("[[feature]]\nname = \"f{p}\"\nkind = \"existence\"\nparts = [\"p{p}\"]\n");
+    }
+    for q in 1..parts {
+        for p in (0..q).filter(|_| random.between(0.0, 1.0) < 0.5).collect::<Vec<_>>() {
+            let kind = match (p + q) % 2 {
+                0 => "kind = \"connectivity\"\ntolerance_m = 0.1",
+                _ => "kind = \"location\"\ndirection = \"up\"\ntolerance_deg = 90",
+            };
+            text += &format!("[[relation]]\nname = \"r{p}_{q}\"\n{kind}\npairs = [[\"p{p}\", \"p{q}\"]]\n");
+        }
+    }
+    text += "[accept]\nmin_parts = 1\n";
+    Template::from_toml(&text).unwrap()
+}
+
+/// How many assignments of `n` segments to `parts` parts there are.
+fn assignment_count(n: usize, parts: usize) -> u64 {
+    let choose = |a: usize, k: usize| (0..k).fold(1, |c, i| c * (a - i) as u64 / (i + 1) as u64);
+    let orders = |k: usize| (1..=k as u64).product::<u64>();
+    (0..=n.min(parts)).map(|k| choose(n, k) * choose(parts, k) * orders(k)).sum()
+}
+
+#[test]
+fn any_template_of_up_to_nine_parts_with_up_to_eight_segments_too() {
+    let mut random = Random::new(20);
+    let mut cases = 0;
+    for parts in 1..=9 {
+        for n in 0..=8 {
+            // Fewer where each takes millions.
+            let count = (1_500_000 / assignment_count(n, parts)).clamp(1, 40) as usize;
+            for k in 0..count {
+                let template = drawn_template(parts, &mut random);
+                let weights = weights_of_one(&template);
+                let tables = random_tables(&template, &mut random, n, KINDS[k % 4]);
+                let expected = best_score_of_all(&template, &tables);
+                assert_best(&solved(&template, &tables, &weights, rules(1)), &[expected], &template, &tables, &weights);
+                cases += 1;
+            }
+        }
+    }
+    assert_eq!(cases, 2937);
+}
+
 #[test]
 fn cartons_of_eight_segments_too() {
     let template = Template::from_toml(CARTON).unwrap();

@@ -15,7 +15,10 @@ y down, z forward). Names are loaded when they are first used.
 - `segment(cloud, ...) -> Segmented`: the cloud's planar segments without meaning, as a record and as perceived.
 - `Model`: panels (4 corners, metres), hinges (origin, axis, position in radians: 0 closed, growing as a flap opens).
 - `load_model(path) -> Model`: a model.json.
-- `save_urdf(object, path, ...)`: one object of a model as URDF.
+- `save_urdf`, `save_mjcf`, `save_sdf(object, path, ...)`: one object of a model as URDF, MJCF or SDF.
+- `plan_closing(model, robot, base_from_input, ...) -> Plan`: motions that close a box: metres, radians, seconds.
+- `simulate(plan, model, truth, ...) -> Run`: a plan in physics: which flaps close and stay closed; needs the extra
+  `physics`.
 - `evaluate(folder, ...) -> Summary`: figures of merit on a labelled set: per cent, degrees, millimetres.
 """
 
@@ -28,10 +31,12 @@ if TYPE_CHECKING:
     from boxwright.io.clouds import read_cloud
     from boxwright.io.models import load_model
     from boxwright.io.sizes import read_sizes
-    from boxwright.kinematics import save_urdf
+    from boxwright.kinematics import save_mjcf, save_sdf, save_urdf
     from boxwright.pipeline import infer
+    from boxwright.planning import plan_closing
     from boxwright.scoring import evaluate
     from boxwright.segmentation import segment
+    from boxwright.simulation.physics import simulate
     from boxwright.types import Cloud, KnownSize, Model
 
 __version__ = "0.1.0"
@@ -44,10 +49,14 @@ __all__ = [
     "evaluate",
     "infer",
     "load_model",
+    "plan_closing",
     "read_cloud",
     "read_sizes",
+    "save_mjcf",
+    "save_sdf",
     "save_urdf",
     "segment",
+    "simulate",
 ]
 
 _HOMES = {
@@ -57,10 +66,14 @@ _HOMES = {
     "evaluate": "boxwright.scoring",
     "infer": "boxwright.pipeline",
     "load_model": "boxwright.io.models",
+    "plan_closing": "boxwright.planning",
     "read_cloud": "boxwright.io.clouds",
     "read_sizes": "boxwright.io.sizes",
+    "save_mjcf": "boxwright.kinematics",
+    "save_sdf": "boxwright.kinematics",
     "save_urdf": "boxwright.kinematics",
     "segment": "boxwright.segmentation",
+    "simulate": "boxwright.simulation.physics",
 }
 
 

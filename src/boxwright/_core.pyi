@@ -147,6 +147,9 @@ def close_surface_groups(
 
 # --- model ---
 
+EVIDENCE: tuple[str, ...]
+"""What is known of a found part (docs/maths.md, eq. 64)."""
+
 class Template:
     """An object's template, read from TOML text. Raises ValueError naming the key that does not fit."""
 
@@ -180,10 +183,13 @@ class Answer:
     """What was understood of a cloud of N points."""
 
     def features_json(self) -> list[str]:
-        """What each object and each of its parts was judged by: {"box": {name: value}, "parts": {part: {name: value}}}."""
+        """What each object and each of its parts was judged by: {"box": {name: value}, "parts": {part: {..}}}."""
 
     def objects_json(self) -> list[str]:
         """The objects as JSON text, best first, keys as in docs/formats.md."""
+
+    def evidence(self, object: int) -> list[list[float] | None]:
+        """What is known of each part of an object, as `EVIDENCE` names it; None where nothing was found or summed."""
 
     @property
     def object_labels(self) -> NDArray[np.int16]:
@@ -194,6 +200,10 @@ class Answer:
         """(N,) part of each point among its object's parts, -1 for none."""
 
     @property
+    def shapes(self) -> NDArray[np.float64]:
+        """(objects, F) what tells each object's kind, as SHAPE_FEATURES; NaN where no body was fitted."""
+
+    @property
     def free_space(self) -> bool:
         """Whether the rays between the camera and the readings were asked for the parts' states."""
 
@@ -201,6 +211,15 @@ class Answer:
     def warnings(self) -> list[str]: ...
     @property
     def stage_seconds(self) -> dict[str, float]: ...
+
+SHAPE_FEATURES: list[str]
+"""What a fitted box's template is told by, in the order of `Answer.shapes`."""
+
+class Kinds:
+    """What each feature of a fitted body's shape counts for each template, from JSON text."""
+
+    def __init__(self, weights_json: str) -> None:
+        """Raises ValueError naming the key that does not fit."""
 
 def check_search(**search: float | str) -> None:
     """Refuses settings of the search that do not exist or do not fit, by name: ValueError."""
@@ -218,12 +237,14 @@ def infer(
     perception: dict[str, float | str] | None = None,
     search: dict[str, float | str] | None = None,
     fitted: bool = False,
+    kinds: Kinds | None = None,
     judgement: str | None = None,
     sizes: list[tuple[str, tuple[float, float, float]]] = ...,
 ) -> tuple[Perception, Answer]:
-    """From a cloud to its objects in one call, bodies fitted or of rectangles.
+    """From a cloud to its objects in one call, bodies fitted or of rectangles; `kinds` tell fitted boxes' templates.
 
-    `judgement` is the text of a judgement file; without one every fitted box is told. Raises ValueError where the cloud cannot be used, with the mend.
+    `judgement` is the text of a judgement file; without one every fitted box is told. `sizes` are outer sizes that
+    fitted boxes may have, as of `check_sizes`. Raises ValueError where the cloud cannot be used, with the mend.
     """
 
 def describe(
@@ -318,3 +339,109 @@ class Problem:
 
     def exhaustive(self, weights: NDArray[np.float64]) -> tuple[NDArray[np.int64], float, int]:
         """The best of all assignments (parts,), its score, and how many were tried: small problems only."""
+
+# --- arm ---
+
+class Arm:
+    """An arm with its gripper, from the TOML text of its file: metres, radians, the base's frame.
+
+    Raises ValueError naming line or key.
+    """
+
+    def __init__(self, toml_text: str) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def joint_names(self) -> list[str]: ...
+    @property
+    def body_names(self) -> list[str]:
+        """The base, the links, the gripper and the fingers."""
+
+    @property
+    def limits(self) -> NDArray[np.float64]:
+        """(axes, 2) rad: lower and upper."""
+
+    @property
+    def ready(self) -> NDArray[np.float64]:
+        """(axes,) rad."""
+
+    @property
+    def closed_form(self) -> bool:
+        """Whether the inverse is a closed form."""
+
+    @property
+    def parent_from_joint(self) -> NDArray[np.float64]:
+        """(axes, 4, 4): each joint at position 0 on the link before it."""
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """(axes, 3) unit vectors in each joint's frame."""
+
+    @property
+    def last_link_from_flange(self) -> NDArray[np.float64]:
+        """(4, 4)."""
+
+    def forward(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """base_from_tool (N, 4, 4) at positions (N, axes)."""
+
+    def link_frames(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(axes + 2, 4, 4): the base, each link and the flange at positions (axes,)."""
+
+    def jacobian(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(6, axes): the tool's m/s, then rad/s, for each rad/s of a joint."""
+
+    def inverse(
+        self, base_from_tool: NDArray[np.float64], near: NDArray[np.float64] | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.uint8], NDArray[np.bool_]]:
+        """Positions (K, axes) within limits that reach a pose (4, 4), branch (K,), near which singularity (K, 3)."""
+
+# --- collision ---
+
+class World:
+    """Solids in the base's frame, metres: boxes, then capsules, then planes below which all is solid."""
+
+    def __init__(
+        self,
+        boxes: list[tuple[str, NDArray[np.float64], tuple[float, float, float]]] = ...,
+        capsules: list[tuple[str, tuple[float, float, float], tuple[float, float, float], float]] = ...,
+        planes: list[tuple[str, tuple[float, float, float], float]] = ...,
+    ) -> None:
+        """(name, base_from_box (4, 4), sizes), (name, from, to, radius), (name, unit normal, distance)."""
+
+    @property
+    def names(self) -> list[str]: ...
+    def distance_m(self, a: int, b: int) -> float:
+        """Signed, between two things by their places in `names`; below 0 the least shift that parts them."""
+
+class Clearance:
+    """Whether an arm is far enough from a world and from itself; `ignored` are pairs (body, thing)."""
+
+    def __init__(
+        self,
+        arm: Arm,
+        world: World,
+        clearance_m: float,
+        opening_m: float,
+        ignored: list[tuple[str, str]] = ...,
+    ) -> None: ...
+    def is_clear(self, positions: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(N,) at positions (N, axes)."""
+
+    def nearest(self, positions: NDArray[np.float64]) -> tuple[str, str, float] | None:
+        """The pair with least to spare at positions (axes,): a body, the other's name, their signed distance."""
+
+# --- planning ---
+
+def plan_closing(robot: str, request: str) -> str:
+    """The text of a robot's file and a request as JSON (`core::planning::Request`); the motion as JSON."""
+
+def feasible_flaps(robot: str, request: str) -> list[tuple[str, bool]]:
+    """For each open flap, by name: can brute force close it by itself, all others as they are? Takes minutes."""
+
+def time_way(
+    way: NDArray[np.float64], speeds: list[float], accelerations: list[float], period_s: float
+) -> tuple[list[float], list[list[float]], list[list[float]]]:
+    """The fastest motion along postures (N, axes), rad, from rest to rest: times (M,), positions, velocities (M, axes).
+
+    Raises ValueError where shapes do not fit or nothing moves.
+    """

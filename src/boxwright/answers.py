@@ -1,36 +1,42 @@
-"""Answers as files (docs/formats.md): a model's with labels and a URDF for each object with a pose, segments'."""
+"""Answers as files (docs/formats.md): a model's with labels and exports of each object with a pose, segments'."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from boxwright.io.labels import PointLabels, write_labels
 from boxwright.io.models import save_model
 from boxwright.io.segments import save_segments, write_segment_labels
-from boxwright.kinematics import save_urdf
+from boxwright.kinematics import save_mjcf, save_sdf, save_urdf
 from boxwright.pipeline import Inferred
 from boxwright.segmentation import Segmented
+from boxwright.types import Object
+
+WRITERS: dict[str, Callable[[Object, Path], None]] = {"urdf": save_urdf, "mjcf": save_mjcf, "sdf": save_sdf}
+"""What an object is exported as, by the suffix of its file."""
 
 
-def save_answer(inferred: Inferred, folder: Path, name: str) -> tuple[Path, ...]:
+def save_answer(inferred: Inferred, folder: Path, name: str, formats: Sequence[str] = ("urdf",)) -> tuple[Path, ...]:
     """Writes an answer to a folder, which is made where it is missing; the files written, model.json first.
 
-    `name` names the URDFs: NAME_K.urdf for object K. An object without a pose has none; the model's warnings say so.
-    URDFs of an earlier answer to the same input are removed, since their objects may be gone.
+    `name` names the exports: NAME_K.urdf for object K, likewise .mjcf and .sdf where `formats` has them. An object
+    without a pose has none; the model's warnings say so. Exports of an earlier answer to the same input are removed,
+    since their objects may be gone.
 
-    Raises OSError when something cannot be written.
+    Raises OSError when something cannot be written, KeyError for a format that WRITERS does not have.
     """
     folder.mkdir(parents=True, exist_ok=True)
     model, labels = folder / "model.json", folder / "labels.npz"
     save_model(inferred.model, model)
     write_labels(PointLabels(object=inferred.object_labels, part=inferred.part_labels), labels)
-    _remove_urdfs(folder, name)
-    urdfs = []
+    _remove_exports(folder, name)
+    exports = []
     for k, found in enumerate(inferred.model.objects):
-        if found.pose is not None:
-            urdfs.append(folder / f"{name}_{k}.urdf")
-            save_urdf(found, urdfs[-1])
-    return (model, labels, *urdfs)
+        for suffix in formats if found.pose is not None else ():
+            exports.append(folder / f"{name}_{k}.{suffix}")
+            WRITERS[suffix](found, exports[-1])
+    return (model, labels, *exports)
 
 
 def save_segmentation(segmented: Segmented, folder: Path) -> tuple[Path, ...]:
@@ -45,8 +51,8 @@ def save_segmentation(segmented: Segmented, folder: Path) -> tuple[Path, ...]:
     return segments, labels
 
 
-def _remove_urdfs(folder: Path, name: str) -> None:
+def _remove_exports(folder: Path, name: str) -> None:
     for path in folder.iterdir():
-        number = path.name.removeprefix(f"{name}_").removesuffix(".urdf")
-        if path.name == f"{name}_{number}.urdf" and number.isdecimal():
+        number = path.stem.removeprefix(f"{name}_")
+        if path.suffix[1:] in WRITERS and path.stem == f"{name}_{number}" and number.isdecimal():
             path.unlink()

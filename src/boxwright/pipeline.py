@@ -12,7 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from boxwright import _core
-from boxwright.models import TEMPLATE_NAMES, load_judgement, load_object_model, shipped_for
+from boxwright.models import (
+    FITTED_TEMPLATES,
+    TEMPLATE_NAMES,
+    load_judgement,
+    load_kinds,
+    load_object_model,
+    shipped_for,
+)
 from boxwright.perception import chosen
 from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
 from boxwright.types import Cloud, KnownSize
@@ -29,6 +36,9 @@ _OBJECT = msgspec.json.Decoder(Object)
 PLANES_OF_METHOD = {"paper": "ransac", "exact": "grid", "fitted": "grid"}
 """The front end of each method where the user names none, one of `_core.PLANES`: the paper's is part of its method."""
 
+TEMPLATES_OF_METHOD = {"paper": TEMPLATE_NAMES, "exact": TEMPLATE_NAMES, "fitted": FITTED_TEMPLATES}
+"""The templates that compete where the user names none."""
+
 SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {
     "paper": {"search": "staged"},
     "exact": {"search": "exact"},
@@ -39,24 +49,29 @@ SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {
 
 @dataclass(frozen=True)
 class Inferred:
-    """The answer to one cloud: the model, and for each point (N,) its object and part, int16, -1 for none."""
+    """The answer to one cloud: the model, and for each point (N,) its object and part, int16, -1 for none.
+
+    `shapes` (objects, F) holds what tells each object's template, `_core.SHAPE_FEATURES`; NaN where no body was fitted.
+    """
 
     model: Model
     object_labels: NDArray[np.int16]
     part_labels: NDArray[np.int16]
     perception: _core.Perception
+    shapes: NDArray[np.float64]
 
 
 def infer(
     cloud: Cloud,
     *,
     method: str = DEFAULT_METHOD,
-    templates: tuple[str | Path, ...] = TEMPLATE_NAMES,
+    templates: tuple[str | Path, ...] | None = None,
     weights: str | Path | None = None,
     up: tuple[float, float, float] | None = None,
     roi: Bounds | None = None,
     planes: str | None = None,
     search: dict[str, float | str] | None = None,
+    kinds: _core.Kinds | None = None,
     sizes: Sequence[KnownSize] = (),
     read_seconds: float = 0.0,
 ) -> Inferred:
@@ -64,13 +79,14 @@ def infer(
 
     `method` "paper" is the pipeline of 2011; "exact" finds planes on the image grid, proves each object's assignment
     best and tells how probable it and its parts are (docs/maths.md, "Exact inference"); "fitted" does so and fits each
-    object's body to its readings ("The fitted body" there). `templates` compete for the
-    segments: shipped names or paths of `.toml` files; `weights` names one file for a single template (the method's
-    shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
+    object's body to its readings ("The fitted body" there). `templates` compete for the segments: shipped names or
+    paths of `.toml` files, by default `TEMPLATES_OF_METHOD`; `weights` names one file for a single template (the
+    method's shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
     known. `roi` leaves out all points beyond the bounds. `planes` names the front end that finds the planes, one of
     `_core.PLANES`; None takes the method's own (`PLANES_OF_METHOD`). All coordinates are in the cloud's frame, metres.
     `search` overrides settings of the search by name: `{"search": "exact"}` proves each object's assignment best and
-    tells its probability (docs/maths.md, "Exact inference"); "staged" is the paper's.
+    tells its probability (docs/maths.md, "Exact inference"); "staged" is the paper's. `kinds` replaces the shipped
+    weights by which the method "fitted" tells a box's template (eq. 89).
 
     `sizes` are outer sizes that boxes may have ("fitted" alone): a box that has one is taken to have it exactly, and of
     rival boxes those that have one win; `warnings` tell of boxes that have none, and when no box in view has any.
@@ -79,6 +95,7 @@ def infer(
     """
     if method not in METHODS:
         raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
+    templates = TEMPLATES_OF_METHOD[method] if templates is None else templates
     if weights is not None and len(templates) != 1:
         raise ValueError("weights fit one template; name that one alone")
     if sizes and method != "fitted":
@@ -100,6 +117,7 @@ def infer(
         perception=chosen(planes),
         search=settings,
         fitted=method == "fitted",
+        kinds=(kinds or load_kinds()) if method == "fitted" else None,
         sizes=[(size.name, size.outer) for size in sizes],
         judgement=load_judgement() if method == "fitted" else None,
     )
@@ -118,4 +136,4 @@ def infer(
         free_space="no viewpoint" if cloud.viewpoint is None else "used" if answer.free_space else "not used",
         objects=objects,
     )
-    return Inferred(model, answer.object_labels, answer.part_labels, perception)
+    return Inferred(model, answer.object_labels, answer.part_labels, perception, answer.shapes)

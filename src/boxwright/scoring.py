@@ -22,7 +22,6 @@ from boxwright.evaluation import (
 )
 from boxwright.io.clouds import read_cloud
 from boxwright.io.labels import NO_LABEL, PointLabels
-from boxwright.models import TEMPLATE_NAMES
 from boxwright.parallel import ordered_map, processors
 from boxwright.pipeline import DEFAULT_METHOD, infer
 
@@ -44,7 +43,7 @@ def evaluate(
     folder: str | os.PathLike[str],
     *,
     method: str = DEFAULT_METHOD,
-    templates: tuple[str | Path, ...] = TEMPLATE_NAMES,
+    templates: tuple[str | Path, ...] | None = None,
     weights: str | Path | None = None,
     planes: str | None = None,
     jobs: int | None = None,
@@ -73,7 +72,7 @@ def score_entries(
     entries: Sequence[SetEntry],
     *,
     method: str,
-    templates: tuple[str | Path, ...],
+    templates: tuple[str | Path, ...] | None,
     weights: str | Path | None,
     planes: str | None = None,
     jobs: int | None,

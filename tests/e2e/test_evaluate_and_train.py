@@ -12,7 +12,7 @@ import pytest
 import boxwright as face
 from boxwright.evaluation import load_evaluation
 from boxwright.io.models import load_model
-from boxwright.models import load_weights
+from boxwright.models import TEMPLATE_NAMES, load_weights
 from support.command import boxwright
 
 
@@ -126,8 +126,10 @@ def test_the_exact_method_learns_from_few_frames_and_tells_probabilities(
             "status": "optimal",
             "gap": 0.0,
             "alternatives": found["inference"]["alternatives"],
+            "unsummed": found["inference"]["unsummed"],
         }
-        assert 0.0 < found["probability"] <= 1.0
+        assert 0.0 <= found["inference"]["unsummed"] <= 1.0
+        assert found["probability"] is None or 0.0 < found["probability"] <= 1.0
         told = [part["probability"] for part in found["parts"] if part["observed"]]
         assert all(0.0 < probability < 1.0 for probability in told)
         assert all(part["probability"] is None for part in found["parts"] if not part["observed"])
@@ -137,3 +139,20 @@ def test_the_exact_method_learns_from_few_frames_and_tells_probabilities(
     ridge = boxwright(*arguments, "--learner", "ridge", "-o", "no.json", folder=tmp_path)
     assert ridge.status == 1
     assert "knows no prior" in ridge.err
+
+
+def test_probabilities_are_fitted_to_labelled_frames(scene_set: Path, tmp_path: Path) -> None:
+    answer = boxwright("calibrate", scene_set, "-o", tmp_path)
+    assert answer.status == 0, answer.err
+    assert "parts judged" in answer.out
+    told = [load_weights(tmp_path / f"{name}.json") for name in TEMPLATE_NAMES]
+    assert len(told) == 3
+    for name, weights in zip(TEMPLATE_NAMES, told, strict=True):
+        assert weights.weights == load_weights(name, "exact").weights
+        assert weights.calibration == told[0].calibration
+    line = told[0].calibration
+    assert line is not None
+    assert line.rays["marginal"] > 0.0 < line.blind["marginal"]
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    assert boxwright("calibrate", empty, "-o", tmp_path).status == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import jsonschema
@@ -97,7 +98,22 @@ def test_old_urdfs_go_when_their_objects_are_gone(frame: Path, carton: tuple[str
     folder = tmp_path / "small_0000"
     folder.mkdir()
     (folder / "small_0000_17.urdf").write_text("old")
+    (folder / "small_0000_17.mjcf").write_text("old")
     (folder / "mine.urdf").write_text("kept")
     assert boxwright("infer", frame, "-o", tmp_path, *carton).status == 0
     assert not (folder / "small_0000_17.urdf").exists()
+    assert not (folder / "small_0000_17.mjcf").exists()
     assert (folder / "mine.urdf").exists()
+
+
+def test_mjcf_and_sdf_are_written_where_they_are_asked_for(
+    frame: Path, carton: tuple[str, ...], tmp_path: Path
+) -> None:
+    assert boxwright("infer", frame, "-o", tmp_path, *carton, "--mjcf", "--sdf").status == 0
+    folder = tmp_path / "small_0000"
+    posed = [k for k, found in enumerate(load_model(folder / "model.json").objects) if found.pose is not None]
+    assert posed
+    for k in posed:
+        root = ET.parse(folder / f"small_0000_{k}.sdf").getroot()
+        assert root.tag == "sdf"
+        assert ET.parse(folder / f"small_0000_{k}.mjcf").getroot().tag == "mujoco"

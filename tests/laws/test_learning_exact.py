@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from boxwright import _core
 from boxwright.learning.exact_rounds import ExactProblems, fit, grow
 from boxwright.learning.likelihood import Prior, fit_likelihood, loss
 from boxwright.learning.margin import fit_margin
-from boxwright.learning.part_calibration import fit_calibration
+from boxwright.learning.part_calibration import Verdict, fit_calibration
 from boxwright.learning.residuals import with_residuals
 from boxwright.learning.stacks import Stack
 from boxwright.learning.temperature import fit_temperature
@@ -86,11 +87,27 @@ def test_residuals_hold_no_segment_of_the_box_that_is_taken() -> None:
 
 def test_a_line_that_made_the_verdicts_is_found_again() -> None:
     rng = np.random.default_rng(5)
-    marginals = rng.uniform(0.02, 0.98, 20000)
-    logits = np.log(marginals / (1.0 - marginals))
-    right = rng.uniform(size=len(marginals)) < 1.0 / (1.0 + np.exp(-0.5 * logits - 0.8))
-    line = fit_calibration(zip(marginals.tolist(), right.tolist(), strict=True))
-    assert line.slope == pytest.approx(0.5, abs=0.05)
-    assert line.offset == pytest.approx(0.8, abs=0.05)
-    unknown = fit_calibration([])
-    assert (unknown.slope, unknown.offset) == (1.0, 0.0)
+    names, count = _core.EVIDENCE, 40000
+    evidence = rng.uniform(-1.0, 1.0, (count, len(names))) * rng.uniform(0.5, 4.0, len(names))
+    evidence[:, names.index("one")] = 1.0
+    made = dict(zip(names, (0.8, 0.5, 0.3, -1.0, 2.0, -1.5, -0.7, 0.4), strict=True))
+    right = rng.uniform(size=count) < 1.0 / (1.0 + np.exp(-evidence @ np.array(list(made.values()))))
+    found = fit_calibration(Verdict(row, True, ok) for row, ok in zip(evidence.tolist(), right.tolist(), strict=True))
+    assert found is not None
+    assert found.rays == pytest.approx(made, abs=0.1)
+    rays_alone = names[names.index("part_seen") :]
+    assert all(found.blind[name] == 0.0 for name in rays_alone)
+    assert fit_calibration([]) is None
+
+
+def test_more_certain_marginals_never_say_less() -> None:
+    rng = np.random.default_rng(6)
+    evidence = rng.uniform(-1.0, 1.0, (2000, len(_core.EVIDENCE)))
+    evidence[:, _core.EVIDENCE.index("one")] = 1.0
+    right = rng.uniform(size=2000) < 1.0 / (1.0 + np.exp(3.0 * evidence[:, _core.EVIDENCE.index("marginal")]))
+    for has_rays in (True, False):
+        verdicts = (Verdict(row, has_rays, ok) for row, ok in zip(evidence.tolist(), right.tolist(), strict=True))
+        line = fit_calibration(verdicts)
+        assert line is not None
+        assert line.rays["marginal"] > 0.0
+        assert line.blind["marginal"] > 0.0

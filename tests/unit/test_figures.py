@@ -81,7 +81,7 @@ def test_a_figure_is_drawn_and_is_the_same_again(
     content = sample_model()
     model = msgspec.convert(content if with_object else content | {"objects": []}, type=Model)
     nothing = np.full(len(shown.points), -1, np.int16)
-    inferred = Inferred(model, nothing, nothing, perception)
+    inferred = Inferred(model, nothing, nothing, perception, np.zeros((0, 0)))
     contents = []
     for name in ("a.png", "b.png"):
         save_frame_figure(shown, inferred, tmp_path / name)

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::belief::Sums;
 use crate::free_space::PartState;
 use crate::geometry::Vec3;
 
@@ -25,6 +26,9 @@ pub struct ObjectAnswer {
     pub parameters: BTreeMap<String, ParameterAnswer>,
     pub parts: Vec<PartAnswer>,
     pub joints: Vec<JointAnswer>,
+    /// Where all assignments were summed; what the parts' probabilities are made of.
+    #[serde(skip)]
+    pub sums: Option<Sums>,
 }
 
 /// A given size, its outer lengths along the object's length, width and height.
@@ -45,6 +49,8 @@ pub struct InferenceAnswer {
     pub status: &'static str,
     pub gap: Option<f64>,
     pub alternatives: usize,
+    /// The share of the probability that the sums left out, at most.
+    pub unsummed: Option<f64>,
 }
 
 /// One feature or relation, summed over its parts; `contribution` = weight x value is its share of the score.
@@ -73,6 +79,9 @@ pub struct PartAnswer {
     /// Of a hidden part: unit vector from it towards a place that sees it.
     pub seen_from: Option<[f64; 3]>,
     pub probability: Option<f64>,
+    /// Of the segment in this part, by the sums.
+    #[serde(skip)]
+    pub marginal: Option<f64>,
     pub corners: Option<[[f64; 3]; 4]>,
     pub points: usize,
 }
@@ -102,9 +111,25 @@ pub struct JointSigma {
 
 impl InferenceAnswer {
     /// `gap`: how much a better assignment could add at most; infinite where nobody knows.
-    pub fn new(gap: f64, alternatives: usize) -> Self {
+    pub fn new(gap: f64, alternatives: usize, unsummed: Option<f64>) -> Self {
         let status = if gap == 0.0 { "optimal" } else { "gap" };
-        Self { status, gap: gap.is_finite().then_some(gap), alternatives }
+        Self { status, gap: gap.is_finite().then_some(gap), alternatives, unsummed }
+    }
+}
+
+impl PartAnswer {
+    /// A part that nobody saw and nothing tells of.
+    pub fn unseen(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            observed: false,
+            state: None,
+            probability: None,
+            corners: None,
+            points: 0,
+            marginal: None,
+            seen_from: None,
+        }
     }
 }
 

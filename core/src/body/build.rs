@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::answer::{
     array, corner_arrays, InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer,
 };
+use super::belief::Sums;
 use super::box_frame::{opening_direction, BoxFrame};
 use super::box_panels::{base_panel, flap_panel, side_panel, tuck_panel, Hinge, Panel};
 use super::free::hinge_between;
@@ -31,7 +32,7 @@ pub fn build_object(
         template_probability: None,
         score: found.candidate.score,
         probability: found.probability,
-        inference: InferenceAnswer::new(found.gap, found.alternatives),
+        inference: InferenceAnswer::new(found.gap, found.alternatives, found.marginals.as_ref().map(|m| m.unsummed)),
         score_terms: score_terms(template, weights, &found.feature_vector),
         dimensions: None,
         outer_dimensions: None,
@@ -41,6 +42,11 @@ pub fn build_object(
         parameters: BTreeMap::new(),
         parts: Vec::new(),
         joints: Vec::new(),
+        sums: found.marginals.as_ref().map(|marginals| Sums {
+            assignment: marginals.assignment,
+            unsummed: marginals.unsummed,
+            calibration: weights.calibration,
+        }),
     };
     match &template.body {
         Body::OpenBox(roles) if seen_sides(roles, assignment) >= SIDES_FOR_A_POSE => {
@@ -144,7 +150,8 @@ fn parts(
         observed: panel.as_ref().is_some_and(|panel| panel.observed),
         state: None,
         seen_from: None,
-        probability: assignment[p].and_then(|s| found.part_probability.get(s).copied()),
+        probability: None,
+        marginal: assignment[p].and_then(|s| Some(found.marginals.as_ref()?.of_segment[s])),
         corners: panel.as_ref().map(|panel| corner_arrays(&panel.corners)),
         points: assignment[p].map_or(0, |s| scene.segments.points_of(set.scene_index[s]).len()),
     };

@@ -1,6 +1,7 @@
 //! From an assignment of segments to parts to an articulated body: corners, hinges, angles (docs/maths.md, "Body").
 
 mod answer;
+mod belief;
 mod box_frame;
 mod box_panels;
 mod build;
@@ -12,4 +13,5 @@ pub use answer::{
     InferenceAnswer, JointAnswer, JointSigma, ObjectAnswer, ParameterAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer,
     SizeAnswer,
 };
+pub use belief::Sums;
 pub use build::build_object;

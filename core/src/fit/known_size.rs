@@ -49,7 +49,7 @@ pub struct SizeMatch {
     pub size: usize,
     /// Its lengths along the body's length, width and height, m.
     pub outer_m: [f64; 3],
-    /// Squared distance in standard deviations (eq. 84).
+    /// Squared distance in standard deviations (eq. 91).
     pub chi2: f64,
 }
 
@@ -75,7 +75,7 @@ pub fn best_match_within(outer_m: [f64; 3], sigma_m: f64, sizes: &[KnownSize]) -
     nearest(outer_m, &(Matrix3::identity() * sigma_m * sigma_m), sizes)
 }
 
-/// The solution, conditioned on the given size that it matches, if it does (eq. 84, 86).
+/// The solution, conditioned on the given size that it matches, if it does (eq. 91, 93).
 pub fn with_known_size(solution: Solution, sizes: &[KnownSize], scale: f64) -> (Solution, Option<SizeMatch>) {
     let Some(found) = best_match(&solution, sizes).filter(SizeMatch::is_met) else { return (solution, None) };
     match condition(&solution, &found, scale) {
@@ -90,12 +90,12 @@ impl SizeMatch {
     }
 }
 
-/// What a box's score is worth among its rivals: one where it has a given size, less where it has none (eq. 85).
+/// What a box's score is worth among its rivals: one where it has a given size, less where it has none (eq. 92).
 pub fn share_of_score(found: Option<&SizeMatch>) -> f64 {
     found.map_or(1.0, |m| SHARE_OF_OTHERS + (1.0 - SHARE_OF_OTHERS) * (-m.chi2 / 2.0).exp())
 }
 
-/// The solution given that its outer dimensions are the match's, each give or take the rule (eq. 86): the step that one more
+/// The solution given that its outer dimensions are the match's, each give or take the rule (eq. 93): the step that one more
 /// residual for each of them makes from where the fit ended. Standard deviations are the covariance's times `scale`. `None`
 /// where the covariance is singular.
 pub fn condition(solution: &Solution, to: &SizeMatch, scale: f64) -> Option<Solution> {

@@ -79,6 +79,11 @@ pub fn shape_names() -> Vec<(usize, String)> {
     names
 }
 
+/// What `model.json` calls the lean of side `k`'s own readings.
+pub fn lean_name(k: usize) -> String {
+    format!("side_{k}_lean")
+}
+
 pub fn flap_names(k: usize) -> Vec<(usize, String)> {
     let own = [
         (FLAP_LENGTH, "length"),

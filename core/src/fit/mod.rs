@@ -20,6 +20,7 @@ mod sheet;
 mod size_warnings;
 mod solve;
 mod start;
+mod wall_lean;
 
 pub use body::FittedBody;
 pub use forward::corners;
@@ -35,6 +36,7 @@ pub(crate) use answer::fill;
 pub(crate) use body::{edge_place, Parameters};
 pub(crate) use forward::flap_end;
 pub(crate) use known_size::{best_match, best_match_within, share_of_score, with_known_size};
+pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
 pub(crate) use panel::Panel;
 pub(crate) use priors::priors;
@@ -42,6 +44,7 @@ pub(crate) use problem::Problem;
 pub(crate) use readings::{PartEnds, PartReadings, PartSegment};
 pub(crate) use sensor::Sensor;
 pub(crate) use solve::{solve, Solution};
+pub(crate) use wall_lean::wall_lean;
 
 #[cfg(test)]
 mod derivative_tests;
@@ -49,3 +52,5 @@ mod derivative_tests;
 mod known_size_tests;
 #[cfg(test)]
 mod recovery_tests;
+#[cfg(test)]
+mod wall_lean_tests;

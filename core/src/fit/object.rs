@@ -1,7 +1,7 @@
 use super::answer::fill;
 use super::body::FittedBody;
 use super::known_size::{with_known_size, KnownSize};
-use super::layout::{HEIGHT, LENGTH, RACK, THICKNESS, WIDTH};
+use super::layout::{lean_name, HEIGHT, LENGTH, RACK, THICKNESS, WIDTH};
 use super::panel::{Panel, NEAR};
 use super::priors::priors;
 use super::problem::Problem;
@@ -12,6 +12,7 @@ use super::sensor::Sensor;
 use super::settings::FitSettings;
 use super::solve::{solve, Solution};
 use super::start::start;
+use super::wall_lean::wall_lean;
 use crate::body::{ObjectAnswer, PartAnswer};
 use crate::cloud::CloudView;
 use crate::geometry::{Plane, Vec3};
@@ -29,8 +30,7 @@ pub fn fit_object(
     object: &ObjectAnswer,
     template: &Template,
     scene: &Scene,
-    set: &SegmentSet,
-    assignment: &Assignment,
+    (set, assignment): (&SegmentSet, &Assignment),
     cloud: &CloudView,
     sizes: &[KnownSize],
     settings: &FitSettings,
@@ -63,6 +63,12 @@ pub fn fit_object(
     let seen: Vec<bool> = turned.iter().map(Option::is_some).collect();
     fill(&mut out, template, &roles, &seen, &solution, settings);
     out.size = size.map(|size| size.answer(sizes));
+    for segment in part_segments(&roles, scene, set, &turned) {
+        let Role::Side(k) = segment.role else { continue };
+        let points = segment.points.iter().map(|&index| sensor.point(index));
+        let lean = wall_lean(points, &solution.body, k, settings);
+        out.parameters.extend(lean.map(|lean| (lean_name(k), lean)));
+    }
     Ok((out, turned))
 }
 

@@ -1,4 +1,4 @@
-//! Planes, convex hulls and minimum bounding rectangles.
+//! Planes, convex hulls, minimum bounding rectangles, rigid motions.
 
 pub mod angles;
 mod bounding;
@@ -7,6 +7,7 @@ mod moments;
 mod plane;
 mod plane_frame;
 mod rectangle;
+pub mod rigid;
 mod rng;
 
 pub use bounding::{minimum_rectangle, Rectangle2};
@@ -15,6 +16,7 @@ pub use moments::Moments;
 pub use plane::Plane;
 pub use plane_frame::PlaneFrame;
 pub use rectangle::Rectangle;
+pub use rigid::Rigid;
 pub use rng::SplitMix64;
 
 /// A vector or point in metres (or a unit direction), in double precision.

@@ -35,8 +35,19 @@ pub struct FoundObject {
     pub alternatives: usize,
     /// Of this assignment among all of its template's; none for the staged search, and where no sum was near enough.
     pub probability: Option<f64>,
-    /// For each segment of the set that has a part, the probability of that part; empty where `probability` is none.
-    pub part_probability: Vec<f64>,
+    /// None for the staged search.
+    pub marginals: Option<FoundMarginals>,
+}
+
+/// What the sums over all assignments say of a found object.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundMarginals {
+    /// Of the assignment, as far as it was summed.
+    pub assignment: f64,
+    /// For each segment of the set, the marginal of the part that it has; 0 where it has none.
+    pub of_segment: Vec<f64>,
+    /// No marginal is farther than this from the true one (eq. 51).
+    pub unsummed: f64,
 }
 
 impl FoundObject {
@@ -53,7 +64,7 @@ impl FoundObject {
             gap: f64::INFINITY,
             alternatives: 0,
             probability: None,
-            part_probability: Vec::new(),
+            marginals: None,
         }
     }
 }
@@ -116,15 +127,14 @@ fn best_object(
         let Some(Contender { candidate, gap, alternatives }) = contender else { continue };
         if best.as_ref().is_none_or(|best| candidate.score > best.candidate.score) {
             let feature_vector = tables.feature_vector(&model.template, &candidate.assignment);
-            let (probability, part_probability) = (None, Vec::new());
             best = Some(FoundObject {
                 model: number,
                 candidate,
                 feature_vector,
                 gap,
                 alternatives,
-                probability,
-                part_probability,
+                probability: None,
+                marginals: None,
             });
         }
     }
@@ -174,8 +184,8 @@ fn exact_contender(
     Ok((first.map(|candidate| Contender { candidate, gap, alternatives }), solution.unseen))
 }
 
-/// The probabilities of the object's assignment among all of its template, and of its parts; none where the sums would
-/// leave out too much.
+/// The probability of the object's assignment among all of its template, none where the sums leave out too much, and the
+/// marginals of its parts with what the sums left out.
 fn tell_probabilities(
     object: &mut FoundObject,
     model: &ObjectModel,
@@ -187,15 +197,12 @@ fn tell_probabilities(
     let reference = &object.candidate.assignment;
     let sums = marginals(template, weights, tables, taken, reference, weights.temperature, settings)?;
     object.probability = (sums.probability_error <= settings.sum_tolerance).then_some(sums.probability);
-    if sums.unseen > settings.sum_tolerance {
-        return Ok(());
-    }
-    let mut by_segment = vec![0.0; taken.len()];
+    let mut of_segment = vec![0.0; taken.len()];
     for (row, segment) in sums.parts.iter().zip(reference) {
         if let Some(s) = segment {
-            by_segment[*s] = weights.calibration.apply(row[s + 1]);
+            of_segment[*s] = row[s + 1];
         }
     }
-    object.part_probability = by_segment;
+    object.marginals = Some(FoundMarginals { assignment: sums.probability, of_segment, unsummed: sums.unseen });
     Ok(())
 }

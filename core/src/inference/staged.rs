@@ -101,11 +101,16 @@ fn best_by_bound(
     complete: impl Fn(&(f64, Vec<usize>)) -> Candidate,
 ) -> (Vec<Candidate>, f64) {
     let mut candidates: Vec<Candidate> = Vec::new();
+    // The `most` best scores so far, best first.
+    let mut best: Vec<f64> = Vec::new();
     for entry in list {
-        if candidates.len() >= most && candidates.iter().filter(|c| c.score >= entry.0).count() >= most {
+        if best.len() == most && best.last().is_none_or(|last| *last >= entry.0) {
             return (candidates, entry.0);
         }
-        candidates.push(complete(entry));
+        let candidate = complete(entry);
+        best.insert(best.partition_point(|score| *score >= candidate.score), candidate.score);
+        best.truncate(most);
+        candidates.push(candidate);
     }
     (candidates, f64::NEG_INFINITY)
 }

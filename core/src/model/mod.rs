@@ -14,7 +14,7 @@ mod template_names;
 mod template_terms;
 mod weights;
 
-pub use calibration::Calibration;
+pub use calibration::{logit, Calibration, Evidence, EVIDENCE};
 pub use features::Feature;
 pub use relations::Relation;
 pub use segment_set::SegmentSet;

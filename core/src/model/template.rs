@@ -95,7 +95,7 @@ impl Template {
     /// # Errors
     /// A line naming the key that does not fit and what would.
     pub fn from_toml(text: &str) -> Result<Self> {
-        let file: TemplateFile = toml::from_str(text).map_err(|error| one_line(text, &error))?;
+        let file: TemplateFile = toml::from_str(text).map_err(|error| InputError::of_toml(text, &error))?;
         file.check()
     }
 
@@ -117,15 +117,5 @@ impl Template {
 
     pub fn term_count(&self) -> usize {
         self.features.len() + self.relations.len()
-    }
-}
-
-fn one_line(text: &str, error: &toml::de::Error) -> InputError {
-    let line = error.span().map(|span| text[..span.start.min(text.len())].matches('\n').count() + 1);
-    let problem = error.message().replace('\n', " ");
-    let out = InputError::new(problem);
-    match line {
-        Some(line) => out.at(format!("line {line}")),
-        None => out,
     }
 }

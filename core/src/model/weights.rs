@@ -1,7 +1,8 @@
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
+use super::calibration::CalibrationFile;
 use super::{Calibration, Template};
 use crate::error::{InputError, Result};
 
@@ -26,7 +27,7 @@ impl Weights {
     pub const UNCALIBRATED_TEMPERATURE: f64 = 1.0;
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Deserialize)]
 struct WeightsFile {
     format: String,
     version: u32,
@@ -35,7 +36,7 @@ struct WeightsFile {
     importance: BTreeMap<String, f64>,
     accept_score: f64,
     temperature: Option<f64>,
-    calibration: Option<Calibration>,
+    calibration: Option<CalibrationFile>,
 }
 
 impl Weights {
@@ -63,8 +64,7 @@ impl Weights {
         if !(temperature.is_finite() && temperature > 0.0) {
             return Err(InputError::new(format!("is {temperature}")).at("temperature").mend("a finite number above 0"));
         }
-        let calibration = file.calibration.unwrap_or_default();
-        calibration.check()?;
+        let calibration = file.calibration.map(|calibration| calibration.read()).transpose()?.unwrap_or_default();
         Ok(Self {
             values: aligned("weights", &file.weights, template)?,
             importance: aligned("importance", &file.importance, template)?,

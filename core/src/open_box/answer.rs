@@ -1,18 +1,19 @@
 use std::collections::BTreeMap;
 
-use super::find::FoundBox;
+use super::grow::FoundBox;
 use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
 use super::sight::Sight;
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer, ScoreTermAnswer};
-use crate::fit::{fill, FitSettings, KnownSize, Role, Solution};
+use crate::fit::{fill, lean_name, wall_lean, FitSettings, KnownSize, Role, Solution};
 use crate::free_space::PartState;
 use crate::model::{Body, Template};
 
-/// A box as `model.json` tells it, and the readings of each of its parts; `None` where the template's body is no open box.
+/// A box as `model.json` tells it by a template, of that probability, and the readings of each of its parts; `None` where the template's body is no open box.
 pub fn answer(
     found: &FoundBox,
     template: &Template,
+    template_probability: Option<f64>,
     sight: &Sight,
     sizes: &[KnownSize],
     settings: &FitSettings,
@@ -21,7 +22,7 @@ pub fn answer(
     let Body::OpenBox(box_roles) = &template.body else { return None };
     let roles = Role::of_parts(box_roles);
     let mut seen = vec![false; template.parts.len()];
-    let mut parts: Vec<PartAnswer> = template.parts.iter().map(|part| blank(&part.name)).collect();
+    let mut parts: Vec<PartAnswer> = template.parts.iter().map(|part| PartAnswer::unseen(&part.name)).collect();
     let mut readings = Vec::new();
     for &(part, role) in &roles {
         let points = found.labels.of(role);
@@ -49,10 +50,11 @@ pub fn answer(
     let judged = judgement.map(|judgement| judgement.of_box(&found.features));
     let mut object = ObjectAnswer {
         template: template.name.clone(),
-        template_probability: None,
+        template_probability,
         score: judged.as_ref().map_or(found.score, |(log_odds, _)| *log_odds),
         probability: judged.as_ref().map(|(log_odds, _)| probability(*log_odds)),
-        inference: InferenceAnswer::new(f64::INFINITY, 0),
+        inference: InferenceAnswer::new(f64::INFINITY, 0, None),
+        sums: None,
         score_terms: judged.map_or_else(Vec::new, |(_, terms)| terms.into_iter().map(term).collect()),
         dimensions: None,
         outer_dimensions: None,
@@ -65,6 +67,11 @@ pub fn answer(
     };
     fill(&mut object, template, &roles, &seen, &solution, settings);
     object.size = found.size.map(|size| size.answer(sizes));
+    for k in (0..4).filter(|&k| !found.labels.of(Role::Side(k)).is_empty()) {
+        let points = found.labels.of(Role::Side(k)).iter().filter_map(|&index| sight.reading(index as usize));
+        let lean = wall_lean(points, &found.solution.body, k, settings);
+        object.parameters.extend(lean.map(|lean| (lean_name(k), lean)));
+    }
     for &(part, role) in &roles {
         let state = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, e)| PartState::of(&e.looked()));
         object.parts[part].state = state;
@@ -80,8 +87,4 @@ pub fn answer(
 
 fn term((name, value, weight): (&'static str, f64, f64)) -> ScoreTermAnswer {
     ScoreTermAnswer { name: name.to_owned(), kind: "evidence", value, weight, contribution: weight * value }
-}
-
-fn blank(name: &str) -> PartAnswer {
-    PartAnswer { name: name.to_owned(), observed: false, state: None, seen_from: None, probability: None, corners: None, points: 0 }
 }

@@ -61,8 +61,17 @@ impl<'a> Sheet<'a> {
         let rim = Rim::new(body, k);
         let (angle, from, width_m, length_m, taper_m, curl) = match role {
             // The base as a sheet that leaves side 0's foot inwards.
-            Role::Base => (0.0, [0.0, body.get(layout::THICKNESS) / 2.0 - body.get(layout::HEIGHT)], body.edge_m(0), body.edge_m(1), 0.0, 0.0),
-            Role::Side(_) => (-std::f64::consts::FRAC_PI_2, [0.0, 0.0], body.edge_m(k), body.get(layout::HEIGHT), 0.0, 0.0),
+            Role::Base => (
+                0.0,
+                [0.0, body.get(layout::THICKNESS) / 2.0 - body.get(layout::HEIGHT)],
+                body.edge_m(0),
+                body.edge_m(1),
+                0.0,
+                0.0,
+            ),
+            Role::Side(_) => {
+                (-std::f64::consts::FRAC_PI_2, [0.0, 0.0], body.edge_m(k), body.get(layout::HEIGHT), 0.0, 0.0)
+            }
             Role::Flap(_) => (
                 flap(layout::FLAP_ANGLE),
                 [0.0, 0.0],
@@ -113,7 +122,8 @@ impl<'a> Sheet<'a> {
 
     /// What the rays say of it.
     pub fn look(&self, sight: &Sight, model_m: f64) -> Evidence {
-        let mut out = Evidence { is_inner: matches!(self.role, Role::Side(_)) && self.face > 0.0, ..Evidence::default() };
+        let mut out =
+            Evidence { is_inner: matches!(self.role, Role::Side(_)) && self.face > 0.0, ..Evidence::default() };
         let cell = self.width_m * self.length_m * (1.0 - 2.0 * END_SHARE).powi(2) / (ALONG * AWAY) as f64;
         let share = |i: usize, n: usize| END_SHARE + (1.0 - 2.0 * END_SHARE) * (i as f64 + 0.5) / n as f64;
         for i in 0..ALONG {

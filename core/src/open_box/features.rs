@@ -1,7 +1,7 @@
 //! What the judgement of a fitted box, and of each of its panels, rests on.
 
 use super::evidence::{Evidence, Sheet};
-use super::find::{FoundBox, FINE_M};
+use super::grow::{FoundBox, FINE_M};
 use super::lean::lean;
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Role};

@@ -70,7 +70,8 @@ impl HingeLine {
             // A tuck flap's position grows against its flap's.
             up: turn * (across * sin - Vec3::z() * cos),
             parent: -way,
-            half_m: body.get(layout::flap(k) + layout::FLAP_WIDTH) / 2.0 - body.get(layout::flap(k) + layout::FLAP_TAPER),
+            half_m: body.get(layout::flap(k) + layout::FLAP_WIDTH) / 2.0
+                - body.get(layout::flap(k) + layout::FLAP_TAPER),
             base: base_plane(body),
         }
     }
@@ -115,18 +116,19 @@ pub struct ScanRange {
     pub longest_m: f64,
     /// How well the hinge is known.
     pub model_m: f64,
+    /// Angles that are followed, at most, and places along the edge at which they are.
+    pub peaks: usize,
+    pub columns: usize,
 }
 
 const HALF_BOARD_M: f64 = 0.003;
 const STEP_RAD: f64 = 0.06;
 /// Ways from the hinge at which all angles are asked.
 const NEAR_M: [f64; 4] = [0.013, 0.021, 0.032, 0.047];
-const COLUMNS: usize = 12;
-/// Of these so many are asked at all angles.
+/// Places along the edge at which all angles are asked.
 const NEAR_COLUMNS: usize = 6;
 /// Left out at each end of the edge, share of its half.
 const END_SHARE: f64 = 0.08;
-const PEAKS: usize = 4;
 /// Rows by which a board is followed from its hinge.
 const ROW_M: f64 = 0.005;
 const LEAST_MET_SHARE: f64 = 0.4;
@@ -145,7 +147,7 @@ pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<Scann
     };
     let mut peaks: Vec<usize> = (0..=steps).filter(|&i| is_peak(i)).collect();
     peaks.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
-    let followed = peaks.iter().take(PEAKS).filter_map(|&i| follow(sight, hinge, angle(i), range));
+    let followed = peaks.iter().take(range.peaks).filter_map(|&i| follow(sight, hinge, angle(i), range));
     followed.filter(|flap| flap.score() > 0.0).fold(None, |best: Option<ScannedFlap>, flap| match best {
         Some(best) if best.score() >= flap.score() => Some(best),
         _ => Some(flap),
@@ -177,13 +179,13 @@ fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, model_m: f64) -> f64
 fn follow(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -> Option<ScannedFlap> {
     let mut flap = ScannedFlap { angle_rad: angle, curl: 0.0, length_m: 0.0, met: 0.0, through: 0.0, hidden: 0.0 };
     for reach in [0.05, 0.1, range.longest_m] {
-        let walk = walk(sight, hinge, &flap, reach.min(range.longest_m), range.model_m);
+        let walk = walk(sight, hinge, &flap, reach.min(range.longest_m), range);
         flap = walk.fitted(&flap)?;
         if reach >= range.longest_m {
             break;
         }
     }
-    let last = walk(sight, hinge, &flap, range.longest_m, range.model_m);
+    let last = walk(sight, hinge, &flap, range.longest_m, range);
     let [least, most] = range.angles_rad;
     let within = (least - STEP_RAD..=most + STEP_RAD).contains(&flap.angle_rad);
     (within && last.length_m >= LEAST_ROWS_M).then_some(ScannedFlap {
@@ -217,7 +219,11 @@ impl Walk {
         let qq = qq + CURL_PRIOR;
         let determinant = xx * qq - xq * xq;
         let (slope, bend) = ((xy * qq - qy * xq) / determinant, (xx * qy - xq * xy) / determinant);
-        Some(ScannedFlap { angle_rad: flap.angle_rad + slope.atan(), curl: (flap.curl + bend).clamp(-MOST_CURL, MOST_CURL), ..*flap })
+        Some(ScannedFlap {
+            angle_rad: flap.angle_rad + slope.atan(),
+            curl: (flap.curl + bend).clamp(-MOST_CURL, MOST_CURL),
+            ..*flap
+        })
     }
 }
 
@@ -225,20 +231,20 @@ impl Walk {
 const CURL_PRIOR: f64 = 2e-5;
 const MOST_CURL: f64 = 2.5;
 
-fn walk(sight: &Sight, hinge: &HingeLine, flap: &ScannedFlap, longest_m: f64, model_m: f64) -> Walk {
+fn walk(sight: &Sight, hinge: &HingeLine, flap: &ScannedFlap, longest_m: f64, range: &ScanRange) -> Walk {
     let (way, normal) = hinge.directions(flap.angle_rad);
     let mut out = Walk::default();
     let mut pending = [0.0; 3];
     let (mut reach, mut last_met) = (0.010, 0.010);
-    let column_m = 2.0 * hinge.half_m * (1.0 - END_SHARE) / COLUMNS as f64;
+    let column_m = 2.0 * hinge.half_m * (1.0 - END_SHARE) / range.columns as f64;
     while reach < longest_m && reach - last_met < MOST_GAP_M {
         let height = flap.curl * reach * reach / 2.0;
         let tilted = normal - way * (flap.curl * reach);
         let (mut met, mut through, mut hidden) = (0.0, 0.0, 0.0);
         let middle = hinge.middle + way * reach + normal * height;
         let pixels = sight.pixels(&middle, &normal, ROW_M * column_m);
-        for column in columns(hinge, COLUMNS) {
-            match hinge.ask(sight, &(middle + hinge.along * column), &tilted, model_m) {
+        for column in columns(hinge, range.columns) {
+            match hinge.ask(sight, &(middle + hinge.along * column), &tilted, range.model_m) {
                 (Says::Met, Some(reading)) => {
                     met += pixels;
                     let from = reading - hinge.middle;

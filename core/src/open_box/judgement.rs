@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::features::{Features, BOX_FEATURES, PART_FEATURES};
 use crate::error::{InputError, Result};
 
-/// Learned weights of what a fitted box, and each of its panels, is judged by: logistic regressions (eq. 88).
+/// Learned weights of what a fitted box, and each of its panels, is judged by: logistic regressions (eq. 90).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Judgement {
     #[serde(rename = "box")]
@@ -20,7 +20,8 @@ impl Judgement {
     /// # Errors
     /// Names what is missing, what is not known, and what is no number.
     pub fn from_json(text: &str) -> Result<Self> {
-        let read: Self = serde_json::from_str(text).map_err(|e| InputError::new(e.to_string()).in_source("judgement"))?;
+        let read: Self =
+            serde_json::from_str(text).map_err(|e| InputError::new(e.to_string()).in_source("judgement"))?;
         for (table, weights, known) in
             [("box", &read.of_box, &BOX_FEATURES[..]), ("part", &read.of_part, &PART_FEATURES[..])]
         {
@@ -28,7 +29,9 @@ impl Judgement {
                 .iter()
                 .find(|name| !weights.contains_key(**name))
                 .map(|name| format!("has no weight of {name}"))
-                .or_else(|| weights.keys().find(|name| !known.contains(&name.as_str())).map(|n| format!("{n} is not known")));
+                .or_else(|| {
+                    weights.keys().find(|name| !known.contains(&name.as_str())).map(|n| format!("{n} is not known"))
+                });
             if let Some(wrong) = wrong {
                 let mend = format!("it weighs {}", known.join(", "));
                 return Err(InputError::new(format!("judgement.{table}: {wrong}")).mend(mend));

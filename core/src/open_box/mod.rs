@@ -1,20 +1,30 @@
-//! Open boxes that segments propose and the depth image judges: walls, rim, then flaps, fitted as one body.
+//! Open boxes that segments propose and the depth image judges: walls, rim, then flaps, fitted as one body (docs/maths.md,
+//! "Whole boxes").
 
 mod answer;
+mod choose;
 mod ends;
 mod evidence;
 mod features;
 mod find;
 mod flap_scan;
+mod grow;
+mod hanging;
 mod hidden;
 mod judgement;
+mod kind;
 mod lean;
 mod next_view;
 mod patch;
 mod proposal;
+mod recast;
 mod refit;
+mod shape;
 mod shell;
+mod shells;
 mod sight;
+mod start;
+mod sure;
 mod surfaces;
 mod unseen;
 mod upright;
@@ -22,6 +32,13 @@ mod yaw;
 
 pub use answer::answer;
 pub use features::Features;
+pub use find::find;
+pub use grow::FoundBox;
 pub use judgement::Judgement;
-pub use find::{find, shells, FoundBox, Shell};
+pub use kind::{open_boxes, Kinds};
+pub use recast::recast;
+pub use shape::{Shape, SHAPE_FEATURES};
 pub use sight::Sight;
+
+#[cfg(test)]
+mod kind_tests;

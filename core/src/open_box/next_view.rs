@@ -49,7 +49,7 @@ impl<'a> Surroundings<'a> {
     }
 
     /// Unit vector, level frame, from the middle of a panel that may be posed in any of these ways (weighted) towards the place
-    /// at the camera's distance that sees it, and is nearest to the camera's (eq. 88). `None` where nothing would show it.
+    /// at the camera's distance that sees it, and is nearest to the camera's (eq. 95). `None` where nothing would show it.
     pub fn seen_from(&self, role: Role, poses: &[(FittedBody, f64)]) -> Option<Vec3> {
         let samples = samples(self.sight, role, poses);
         let middle: Vec3 = samples.iter().map(|s| s.point * s.weight).sum();

@@ -109,7 +109,10 @@ fn pairs(patches: &[Patch], axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
     let (low, high) = (distinct(low), distinct(high));
     let fits = |l: &Place, h: &Place| (SIZES_M[0]..=SIZES_M[1]).contains(&(h.at_m - l.at_m));
     let with = |l: Place| high.iter().filter(move |h| fits(&l, h)).map(move |h| [l, *h]);
-    low.iter().flat_map(|l| with(*l)).filter(|[l, h]| l.shown_by == ShownBy::Nothing || l.shown_by != h.shown_by).collect()
+    low.iter()
+        .flat_map(|l| with(*l))
+        .filter(|[l, h]| l.shown_by == ShownBy::Nothing || l.shown_by != h.shown_by)
+        .collect()
 }
 
 /// Without those that lie where one lies that is shown better, or an earlier one.
@@ -162,7 +165,10 @@ fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
     let count = walls + flaps;
     let is_enough = bottom.is_finite() && (walls >= 2 || count >= 3);
     is_enough.then(|| {
-        (shown + OF_FLAPS * by_flaps, Proposal { axes: [x, y], up, spans, heights: [bottom, bottom], on_flaps: by_flaps })
+        (
+            shown + OF_FLAPS * by_flaps,
+            Proposal { axes: [x, y], up, spans, heights: [bottom, bottom], on_flaps: by_flaps },
+        )
     })
 }
 

@@ -3,7 +3,9 @@ use super::evidence::Sheet;
 use super::sight::Sight;
 use super::surfaces::{Labels, Present};
 use crate::cloud::CloudView;
-use crate::fit::{priors, solve, FitSettings, FittedBody, NotFitted, PartEnds, PartReadings, PartSegment, Problem, Sensor, Solution};
+use crate::fit::{
+    priors, solve, FitSettings, FittedBody, NotFitted, PartEnds, PartReadings, PartSegment, Problem, Sensor, Solution,
+};
 use crate::geometry::{Plane, Vec3};
 
 /// Fewer readings tell nothing of a panel.
@@ -26,7 +28,11 @@ pub fn refit(
 ) -> Result<Solution, NotFitted> {
     let cloud =
         CloudView { points: &sight.points, width: sight.width, height: sight.height, viewpoint: Some(sight.eye) };
-    let used: Vec<_> = labels.parts.iter().filter(|(_, points)| labels.count(points) >= LEAST_READINGS && points.len() >= LEAST_SAMPLES).collect();
+    let used: Vec<_> = labels
+        .parts
+        .iter()
+        .filter(|(_, points)| labels.count(points) >= LEAST_READINGS && points.len() >= LEAST_SAMPLES)
+        .collect();
     let sample = used.iter().max_by_key(|(_, points)| points.len()).map_or(&[][..], |(_, points)| points);
     let sensor = Sensor::new(&cloud, sample, settings);
     let parts = used.iter().map(|(role, points)| {
@@ -39,7 +45,11 @@ pub fn refit(
     let support = Plane { normal: Vec3::z(), distance: 0.0 };
     let lean = (body.input_from_object.rotation * Vec3::z()).z;
     let stands = body.input_from_object.translation.vector.z.abs() < settings.stands_on_support_m && lean > LEVEL_COS;
-    let problem =
-        Problem { parts: parts.collect(), support: stands.then_some(support), priors: priors(body), settings: *settings };
+    let problem = Problem {
+        parts: parts.collect(),
+        support: stands.then_some(support),
+        priors: priors(body),
+        settings: *settings,
+    };
     solve(&problem, body)
 }

@@ -42,7 +42,10 @@ impl Rays {
     pub fn new(sight: &Sight) -> Self {
         let (columns, rows) = (sight.width.div_ceil(STRIDE), sight.height.div_ceil(STRIDE));
         let place = |k: usize| {
-            let (x, y) = ((k % columns * STRIDE + STRIDE / 2).min(sight.width - 1), (k / columns * STRIDE + STRIDE / 2).min(sight.height - 1));
+            let (x, y) = (
+                (k % columns * STRIDE + STRIDE / 2).min(sight.width - 1),
+                (k / columns * STRIDE + STRIDE / 2).min(sight.height - 1),
+            );
             sight.reading(y * sight.width + x).map_or(Vec3::repeat(f64::NAN), |p| p - sight.eye)
         };
         let to_reading: Vec<Vec3> = (0..columns * rows).map(place).collect();
@@ -100,7 +103,12 @@ impl Rays {
         let (width, height) = (sight.width as f64, sight.height as f64);
         let is_seen = bounds[1] >= 0.0 && bounds[0] < width && bounds[3] >= 0.0 && bounds[2] < height;
         is_seen.then(|| {
-            [cell(bounds[0], self.columns), cell(bounds[1], self.columns), cell(bounds[2], self.rows), cell(bounds[3], self.rows)]
+            [
+                cell(bounds[0], self.columns),
+                cell(bounds[1], self.columns),
+                cell(bounds[2], self.rows),
+                cell(bounds[3], self.rows),
+            ]
         })
     }
 }

@@ -11,6 +11,14 @@ pub struct Present {
     pub tucks: [bool; 4],
 }
 
+impl Present {
+    /// Of the same box with side `by` as side 0.
+    pub fn turned(&self, by: usize) -> Self {
+        let turn = |of: &[bool; 4]| std::array::from_fn(|k| of[(k + by) % 4]);
+        Self { flaps: turn(&self.flaps), tucks: turn(&self.tucks) }
+    }
+}
+
 /// The readings of each part of a box, in the image's order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Labels {

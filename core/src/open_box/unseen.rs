@@ -18,7 +18,7 @@ const STEP_DEG: usize = 10;
 const LEAST_SHARE: f64 = 0.05;
 const MODEL_M: f64 = 0.004;
 
-/// Asks the rays at every angle (eq. 87). Readings that it would meet speak neither way: something else was found there.
+/// Asks the rays at every angle (eq. 94). Readings that it would meet speak neither way: something else was found there.
 pub fn unseen_flap(sight: &Sight, body: &FittedBody, k: usize, length_m: f64) -> UnseenFlap {
     let (mut poses, mut odds) = (Vec::new(), Vec::new());
     for degrees in (ANGLES_DEG[0]..=ANGLES_DEG[1]).step_by(STEP_DEG) {

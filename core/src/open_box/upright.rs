@@ -16,7 +16,8 @@ const SQUARE_COS: f64 = 0.12;
 pub fn ways_up(patches: &[Patch]) -> Vec<Vec3> {
     let vertical = Vec3::z();
     let leans = |up: &Vec3| (LEANS_RAD[0]..=LEANS_RAD[1]).contains(&up.dot(&vertical).clamp(-1.0, 1.0).acos());
-    let large: Vec<&Patch> = patches.iter().filter(|p| p.readings >= LEAST_READINGS && reach_m(p) >= LEAST_REACH_M).collect();
+    let large: Vec<&Patch> =
+        patches.iter().filter(|p| p.readings >= LEAST_READINGS && reach_m(p) >= LEAST_REACH_M).collect();
     let mut votes: Vec<(Vec3, f64)> = Vec::new();
     for (i, a) in large.iter().enumerate() {
         if leans(&a.normal) {
@@ -37,7 +38,8 @@ pub fn ways_up(patches: &[Patch]) -> Vec<Vec3> {
     while out.len() <= MOST {
         let near = |a: &Vec3, b: &Vec3| a.cross(b).norm() < SAME_RAD;
         let weight = |up: &Vec3| votes.iter().filter(|v| near(&v.0, up)).map(|v| v.1).sum::<f64>();
-        let best = votes.iter().map(|v| (weight(&v.0), v.0)).fold((0.0, vertical), |a, b| if b.0 > a.0 { b } else { a });
+        let best =
+            votes.iter().map(|v| (weight(&v.0), v.0)).fold((0.0, vertical), |a, b| if b.0 > a.0 { b } else { a });
         if best.0 <= 0.0 {
             break;
         }

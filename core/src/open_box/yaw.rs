@@ -23,7 +23,8 @@ pub fn yaws(patches: &[Patch], frame: &[Vec3; 3]) -> Vec<f64> {
     let mut strongest = 0.0_f64;
     while out.len() < MOST {
         let weight_about = |yaw: f64| votes.iter().filter(|v| near(v.0, yaw)).map(|v| v.1).sum::<f64>();
-        let best = votes.iter().map(|v| (weight_about(v.0), v.0)).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+        let best =
+            votes.iter().map(|v| (weight_about(v.0), v.0)).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
         strongest = strongest.max(best.0);
         if best.0 <= 0.0 || best.0 < LEAST_SHARE * strongest {
             break;

@@ -7,18 +7,25 @@ from typing import Annotated
 import typer
 
 from boxwright import __version__
+from boxwright.cli.calibrate import calibrate
+from boxwright.cli.close import close
 from boxwright.cli.demo import demo
 from boxwright.cli.evaluate import evaluate
 from boxwright.cli.explain import explain
 from boxwright.cli.figure import figure
 from boxwright.cli.infer import infer
 from boxwright.cli.label import label
+from boxwright.cli.plan import plan
+from boxwright.cli.robots import robots
 from boxwright.cli.segment import segment
+from boxwright.cli.simulate import simulate
 from boxwright.cli.synth import synth
 from boxwright.cli.train import train
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich")
-for command in (demo, infer, segment, explain, figure, label, evaluate, synth, train):
+for command in (
+    demo, infer, segment, explain, figure, label, evaluate, synth, train, calibrate, robots, plan, simulate, close
+):  # fmt: skip
     app.command()(command)
 
 

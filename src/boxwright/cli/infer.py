@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 FigureOption = Annotated[bool, typer.Option("--figure", help="Draw NAME.png beside each model.json.")]
 
+MjcfOption = Annotated[bool, typer.Option("--mjcf", help="Write NAME_K.mjcf too, for MuJoCo.")]
+SdfOption = Annotated[bool, typer.Option("--sdf", help="Write NAME_K.sdf too, for Gazebo.")]
+
 
 @grouped
 def infer(
@@ -35,6 +38,8 @@ def infer(
     scene: SceneOptions,
     known: KnownOptions,
     figure: FigureOption = False,
+    mjcf: MjcfOption = False,
+    sdf: SdfOption = False,
     jobs: InputsOption = 1,
     as_json: JsonOption = False,
     verbose: VerboseOption = False,
@@ -64,12 +69,13 @@ def infer(
     refuse_shared_names(clouds)
     sizes = known.sizes(model.method_name)
     draw = frame_figure_drawer() if figure else None
+    formats = ["urdf", *(["mjcf"] if mjcf else []), *(["sdf"] if sdf else [])]
 
     def answer(path: Path) -> tuple[Model, tuple[Path, ...]]:
         start = time.perf_counter()
         cloud = reading.read(path)
         inferred = model.infer(cloud, scene, time.perf_counter() - start, sizes)
-        files = save_answer(inferred, output / path.stem, path.stem)
+        files = save_answer(inferred, output / path.stem, path.stem, formats)
         if draw is not None:
             files = (*files, output / path.stem / f"{path.stem}.png")
             draw(cloud, inferred, files[-1], model.template_names)

@@ -98,7 +98,7 @@ TemplateOption = Annotated[
     typer.Option(
         "--template",
         metavar="NAME|FILE.toml",
-        help="Object template; repeatable, they compete. Default: carton, cake_box, pizza_box.",
+        help="Object template; repeatable, they compete. Default: carton, cake_box, pizza_box; fitted: tote too.",
         rich_help_panel=MODEL,
     ),
 ]
@@ -217,9 +217,9 @@ class ModelOptions:
     @property
     def template_names(self) -> tuple[str, ...]:
         """The templates that compete."""
-        from boxwright.models import TEMPLATE_NAMES
+        from boxwright.pipeline import TEMPLATES_OF_METHOD
 
-        return tuple(self.template) if self.template else TEMPLATE_NAMES
+        return tuple(self.template) if self.template else TEMPLATES_OF_METHOD[self.method_name]
 
     def infer(
         self, cloud: Cloud, scene: SceneOptions, read_seconds: float = 0.0, sizes: tuple[KnownSize, ...] = ()

@@ -17,7 +17,8 @@ def synth(
     category: Annotated[
         list[str] | None,
         typer.Option(
-            help="small, medium, large, carton, cake, pizza, or none (no open box). Repeatable; default: all six."
+            help="small, medium, large, carton, cake, pizza (the default: these six in turn), tote (no flaps), or none "
+            "(no open box). Repeatable."
         ),
     ] = None,
     boxes: Annotated[

@@ -96,7 +96,7 @@ def train(
     shipped = shipped_for(method, PLANES_OF_METHOD[method])
     loaded = load_template(template, shipped)
     known = None if prior is None else load_weights(prior, shipped)
-    frames, refused = _see(folders, category, planes, jobs)
+    frames, refused = frames_of(folders, category, planes, jobs)
     command = shlex.join(["boxwright", *sys.argv[1:]])
     learned = learn(
         loaded,
@@ -145,7 +145,7 @@ def learn_judgement_of(folders: list[Path], output: Path, jobs: int | None, as_j
         )
 
 
-def _see(
+def frames_of(
     folders: list[Path], categories: list[str] | None, planes: str | None, jobs: int | None
 ) -> tuple[list[SeenFrame], int]:
     """The frames of all sets after perception, and how many could not be used."""
@@ -168,6 +168,8 @@ def _see(
 
 def _look(entry: SetEntry, categories: list[str] | None, planes: str | None) -> SeenFrame | ValueError | OSError | None:
     """One frame after perception; None where its category is not asked for, the error where it cannot be used."""
+    from functools import partial
+
     from boxwright.evaluation import read_entry
     from boxwright.io.clouds import read_cloud
     from boxwright.learning import SeenFrame
@@ -185,4 +187,5 @@ def _look(entry: SetEntry, categories: list[str] | None, planes: str | None) -> 
             )
     except (ValueError, OSError) as error:
         return error
-    return SeenFrame(entry.name, perception, labelled.truth, labelled.labels)
+    read = partial(read_cloud, entry.cloud_path)
+    return SeenFrame(entry.name, perception, labelled.truth, labelled.labels, read, planes)

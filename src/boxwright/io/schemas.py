@@ -9,13 +9,15 @@ from pathlib import Path
 
 import msgspec
 
-from boxwright.types import Model, Segmentation, Truth
+from boxwright.types import Model, Plan, Segmentation, Simulation, Truth
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 SCHEMAS: dict[str, tuple[type[msgspec.Struct], str]] = {
     "model.schema.json": (Model, "boxwright model.json, version 1"),
+    "plan.schema.json": (Plan, "boxwright plan.json, version 1"),
     "segments.schema.json": (Segmentation, "boxwright segments.json, version 1"),
+    "simulation.schema.json": (Simulation, "boxwright simulation.json, version 1"),
     "truth.schema.json": (Truth, "boxwright NAME.truth.json of a scene set"),
 }
 """File name to the type that it describes, and its title."""

@@ -66,3 +66,26 @@ def roll_pitch_yaw(rotation: Matrix) -> tuple[float, float, float]:
         sin_yaw * rotation[0, 2] - cos_yaw * rotation[1, 2], cos_yaw * rotation[1, 1] - sin_yaw * rotation[0, 1]
     )
     return roll, pitch, yaw
+
+
+def quaternion_wxyz(a_from_b: Matrix) -> tuple[float, float, float, float]:
+    """The unit quaternion w, x, y, z of a transform's rotation, w not negative.
+
+    Each of the four is twice its square root of the diagonal's sums; the largest is taken, so that nothing is lost near
+    half a turn (S. W. Shepperd, J. Guidance and Control 1 (1978) 223).
+    """
+    r = a_from_b[:3, :3]
+    squares = np.array(
+        [
+            1.0 + r[0, 0] + r[1, 1] + r[2, 2],
+            1.0 + r[0, 0] - r[1, 1] - r[2, 2],
+            1.0 - r[0, 0] + r[1, 1] - r[2, 2],
+            1.0 - r[0, 0] - r[1, 1] + r[2, 2],
+        ]
+    )
+    x, y, z = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+    xy, xz, yz = r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[1, 2] + r[2, 1]
+    rows = np.array([[squares[0], x, y, z], [x, squares[1], xy, xz], [y, xy, squares[2], yz], [z, xz, yz, squares[3]]])
+    row = rows[int(np.argmax(squares))]
+    unit = row / np.linalg.norm(row) * (1.0 if row[0] >= 0.0 else -1.0)
+    return float(unit[0]), float(unit[1]), float(unit[2]), float(unit[3])

@@ -10,19 +10,13 @@ import xml.etree.ElementTree as ET
 from os import PathLike
 from pathlib import Path
 
-import numpy as np
-
 from boxwright.kinematics.forward import configuration
-from boxwright.kinematics.links import corners_of, link_frames, panel_frame, parent_from_joint, root_part
-from boxwright.kinematics.plates import EnclosingBox, Plate, enclosing_box, plate
-from boxwright.kinematics.transforms import Matrix, apply, inverse, rigid, roll_pitch_yaw
+from boxwright.kinematics.links import parent_from_joint
+from boxwright.kinematics.plates import EnclosingBox, Plate
+from boxwright.kinematics.solids import SolidLink, Solids, numbers, solids_of
+from boxwright.kinematics.transforms import Matrix, inverse, roll_pitch_yaw
 from boxwright.types import Joint, Object
-
-BOARD_G_PER_M2 = 550.0
-"""Single-wall board of common papers: two liners of 175 g/m2, a medium of 140 g/m2 by C flute's take-up, about 1.43."""
-
-BOARD_THICKNESS_M = 0.004
-"""C flute, nominally 5/32 inch (Fibre Box Association); used where the object does not tell its own."""
+from boxwright.types.board import BOARD_G_PER_M2, BOARD_THICKNESS_M
 
 HINGE_EFFORT_N_M = 10.0
 HINGE_VELOCITY_RAD_PER_S = 6.283185307179586
@@ -57,35 +51,30 @@ def urdf_text(
     the object's frame where the pose is known. Masses come from the board's weight; `board_thickness_m` counts only
     where the object tells no thickness. Raises ValueError when no part can be the root, or a panel has no area.
     """
-    if board_g_per_m2 <= 0.0 or board_thickness_m <= 0.0:
-        raise ValueError(f"board weighs {board_g_per_m2} g/m2, is {board_thickness_m} m thick; both must be above 0")
-    root = root_part(model_object, root)
-    frames = link_frames(model_object, root)
-    thickness_m = model_object.thickness or board_thickness_m
+    solids = solids_of(model_object, root, board_g_per_m2, board_thickness_m)
     robot = ET.Element("robot", name=model_object.template)
-    robot.append(ET.Comment(_remarks(model_object, frames[root], root, board_g_per_m2, thickness_m)))
+    robot.append(ET.Comment(_remarks(model_object, solids)))
     robot.append(_mujoco_options())
     ET.SubElement(ET.SubElement(robot, "material", name="cardboard"), "color", rgba=CARDBOARD_RGBA)
-    for name, corners in corners_of(model_object).items():
-        robot.append(_link(name, frames[name], corners, board_g_per_m2, thickness_m))
-    for joint in _joints(model_object, root, frames):
+    for link in solids.links.values():
+        robot.append(_link(link))
+    for joint in _joints(solids):
         robot.append(joint)
     ET.indent(robot)
     return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
 
 
-def _remarks(
-    model_object: Object, input_from_root: Matrix, root: str, board_g_per_m2: float, thickness_m: float
-) -> str:
+def _remarks(model_object: Object, solids: Solids) -> str:
     positions = ", ".join(f"{name} {position!r}" for name, position in configuration(model_object).items())
-    told = "told by the model" if model_object.thickness else "assumed"
+    told = "told by the model" if solids.thickness_told else "assumed"
+    input_from_root = solids.links[solids.root].input_from_link
     return "\n    ".join(
         [
             " Made by boxwright. Joint position 0 is a closed flap; it grows as the flap opens.",
             f"Measured positions, rad: {positions or 'no joint'}.",
-            f"Root link {root} in the input's frame: xyz {_numbers(input_from_root[:3, 3])},"
-            f" rpy {_numbers(roll_pitch_yaw(input_from_root[:3, :3]))}.",
-            f"Board: {board_g_per_m2!r} g/m2, {thickness_m!r} m thick ({told}). ",
+            f"Root link {solids.root} in the input's frame: xyz {numbers(input_from_root[:3, 3])},"
+            f" rpy {numbers(roll_pitch_yaw(input_from_root[:3, :3]))}.",
+            f"Board: {solids.board_g_per_m2!r} g/m2, {solids.thickness_m!r} m thick ({told}). ",
         ]
     )
 
@@ -97,23 +86,17 @@ def _mujoco_options() -> ET.Element:
     return options
 
 
-def _link(name: str, frame: Matrix, corners: Matrix, board_g_per_m2: float, thickness_m: float) -> ET.Element:
-    """A panel's link; `frame` is input_from_link, corners (4, 3) are in the input's frame."""
-    link_from_panel = inverse(frame) @ panel_frame(name, corners)
-    corners_panel = apply(inverse(panel_frame(name, corners)), corners)
-    body = plate(apply(inverse(frame), corners), link_from_panel[:3, 2], board_g_per_m2, thickness_m)
-    box = enclosing_box(corners_panel, thickness_m)
-    box_origin = link_from_panel @ rigid(np.eye(3), box.centre)
-    link = ET.Element("link", name=name)
-    link.append(_inertial(body))
-    link.append(_box("visual", box, box_origin))
-    link.append(_box("collision", box, box_origin))
+def _link(solid: SolidLink) -> ET.Element:
+    link = ET.Element("link", name=solid.name)
+    link.append(_inertial(solid.body))
+    link.append(_box("visual", solid.box, solid.link_from_box))
+    link.append(_box("collision", solid.box, solid.link_from_box))
     return link
 
 
 def _inertial(body: Plate) -> ET.Element:
     inertial = ET.Element("inertial")
-    ET.SubElement(inertial, "origin", xyz=_numbers(body.centre), rpy="0 0 0")
+    ET.SubElement(inertial, "origin", xyz=numbers(body.centre), rpy="0 0 0")
     ET.SubElement(inertial, "mass", value=repr(body.mass_kg))
     axes = "xyz"
     entries = {f"i{axes[i]}{axes[j]}": repr(float(body.inertia[i, j])) for i in range(3) for j in range(i, 3)}
@@ -124,19 +107,19 @@ def _inertial(body: Plate) -> ET.Element:
 def _box(kind: str, box: EnclosingBox, link_from_box: Matrix) -> ET.Element:
     element = ET.Element(kind)
     element.append(_origin(link_from_box))
-    ET.SubElement(ET.SubElement(element, "geometry"), "box", size=_numbers(box.size))
+    ET.SubElement(ET.SubElement(element, "geometry"), "box", size=numbers(box.size))
     if kind == "visual":
         ET.SubElement(element, "material", name="cardboard")
     return element
 
 
-def _joints(model_object: Object, root: str, frames: dict[str, Matrix]) -> list[ET.Element]:
+def _joints(solids: Solids) -> list[ET.Element]:
     """A joint for each link but the root, in the order of the parts."""
-    joint_of = {joint.child: joint for joint in model_object.joints}
+    frames, root = solids.frames(), solids.root
     elements = []
     for name in frames:
-        if name in joint_of:
-            elements.append(_hinge(joint_of[name], parent_from_joint(joint_of[name], frames)))
+        if name in solids.joint_of:
+            elements.append(_hinge(solids.joint_of[name], parent_from_joint(solids.joint_of[name], frames)))
         elif name != root:
             elements.append(_tie(f"{root}_to_{name}", "fixed", root, name, inverse(frames[root]) @ frames[name]))
     return elements
@@ -165,9 +148,4 @@ def _tie(name: str, kind: str, parent: str, child: str, parent_from_child: Matri
 
 
 def _origin(transform: Matrix) -> ET.Element:
-    return ET.Element("origin", xyz=_numbers(transform[:3, 3]), rpy=_numbers(roll_pitch_yaw(transform[:3, :3])))
-
-
-def _numbers(values: Matrix | tuple[float, ...]) -> str:
-    """Numbers as the shortest text that reads back as the same bits."""
-    return " ".join(repr(float(value)) for value in values)
+    return ET.Element("origin", xyz=numbers(transform[:3, 3]), rpy=numbers(roll_pitch_yaw(transform[:3, :3])))

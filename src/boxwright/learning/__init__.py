@@ -3,5 +3,6 @@
 from boxwright.learning.judgement import LearnedJudgement, learn_judgement
 from boxwright.learning.seen import SeenFrame
 from boxwright.learning.train import train
+from boxwright.learning.whole_method import calibrate
 
-__all__ = ["LearnedJudgement", "SeenFrame", "learn_judgement", "train"]
+__all__ = ["LearnedJudgement", "SeenFrame", "calibrate", "learn_judgement", "train"]

@@ -35,5 +35,5 @@ def understand_held_out(
         fitted = fit(learner, rest, prior, learned.weights)
         own = msgspec.structs.replace(weights, weights=dict(zip(names, fitted.tolist(), strict=True)))
         mine = [frame for number, frame in enumerate(frames) if number % folds == held]
-        out += understand_all(problems.template, own, mine, {"search": "exact"}, jobs)
+        out += understand_all(problems.template, own, mine, {"search": "exact"}, jobs, with_rays=True)
     return out

@@ -1,4 +1,4 @@
-"""Learns how a fitted box, and each of its panels, is judged: two logistic regressions (docs/maths.md, eq. 88)."""
+"""Learns how a fitted box, and each of its panels, is judged: two logistic regressions (docs/maths.md, eq. 90)."""
 
 from __future__ import annotations
 
@@ -109,9 +109,7 @@ def examples_of(entry: SetEntry, model: _core.ObjectModel) -> Examples:
     """What is found in one frame before anything is judged, and whether it is right."""
     frame = read_entry(entry)
     cloud = read_cloud(entry.cloud_path)
-    _, answer = _core.infer(
-        cloud.points, cloud.width, cloud.height, [model], viewpoint=cloud.viewpoint, fitted=True
-    )
+    _, answer = _core.infer(cloud.points, cloud.width, cloud.height, [model], viewpoint=cloud.viewpoint, fitted=True)
     objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
     features = tuple(_FEATURES.decode(text) for text in answer.features_json())
     labels = PointLabels(object=answer.object_labels, part=answer.part_labels)

@@ -1,6 +1,7 @@
 """Object models as data: templates (TOML) and learned weights (JSON)."""
 
 from boxwright.models.catalogue import (
+    FITTED_TEMPLATES,
     TEMPLATE_NAMES,
     load_judgement,
     load_object_model,
@@ -8,12 +9,16 @@ from boxwright.models.catalogue import (
     load_weights,
     shipped_for,
 )
+from boxwright.models.kinds import LearnedKinds, load_kinds
 from boxwright.models.weights import LearnedWeights
 
 __all__ = [
+    "FITTED_TEMPLATES",
     "TEMPLATE_NAMES",
+    "LearnedKinds",
     "LearnedWeights",
     "load_judgement",
+    "load_kinds",
     "load_object_model",
     "load_template",
     "load_weights",

@@ -10,7 +10,9 @@ from boxwright import _core
 from boxwright.models.weights import LearnedWeights
 
 TEMPLATE_NAMES = ("carton", "cake_box", "pizza_box")
-"""The shipped templates."""
+"""The shipped templates that compete where none is named, in the methods "paper" and "exact"."""
+FITTED_TEMPLATES = (*TEMPLATE_NAMES, "tote")
+"""Those of the method "fitted": all that are shipped."""
 
 _HERE = Path(__file__).parent
 # Made once, at import: threads that make their first decoder of a type together have crashed.
@@ -45,13 +47,13 @@ def load_judgement() -> str:
 
 
 def _template_path(name_or_path: str | Path, shipped: str | None) -> Path:
-    if str(name_or_path) in TEMPLATE_NAMES:
+    if str(name_or_path) in FITTED_TEMPLATES:
         folder = _HERE / "templates"
         return (folder / EXACT if shipped == EXACT else folder) / f"{name_or_path}.toml"
     path = Path(name_or_path)
     if path.suffix != ".toml":
         raise ValueError(
-            f"{name_or_path}: no template of that name; shipped are {', '.join(TEMPLATE_NAMES)}, or name a .toml file"
+            f"{name_or_path}: no template of that name; shipped are {', '.join(FITTED_TEMPLATES)}, or name a .toml file"
         )
     return path
 
@@ -87,7 +89,7 @@ def load_weights(name_or_path: str | Path, shipped: str | None = None) -> Learne
 
 
 def _weights_path(name_or_path: str | Path, shipped: str | None) -> Path:
-    if str(name_or_path) in TEMPLATE_NAMES:
+    if str(name_or_path) in FITTED_TEMPLATES:
         return _HERE / "weights" / (shipped or _core.DEFAULT_PLANES) / f"{name_or_path}.json"
     return Path(name_or_path)
 
@@ -101,12 +103,17 @@ def load_object_model(
     weights, as for those above. Raises as those do.
     """
     loaded = load_template(template, shipped)
-    if weights is None and loaded.name not in TEMPLATE_NAMES:
+    if weights is None and loaded.name not in FITTED_TEMPLATES:
         raise ValueError(
             f"{template}: no weights are shipped for {loaded.name!r}; train some and name them with --weights"
         )
     _core.check_search(**search)
     path = _weights_path(loaded.name if weights is None else weights, shipped)
+    if weights is None and not path.is_file():
+        raise ValueError(
+            f"{template}: no weights are shipped for {loaded.name!r} on planes {shipped or _core.DEFAULT_PLANES!r};"
+            ' they are for the methods "exact" and "fitted", or name some with --weights'
+        )
     try:
         return loaded, _core.ObjectModel(loaded, _read_text(path), **search)
     except ValueError as error:

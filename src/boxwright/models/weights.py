@@ -42,10 +42,12 @@ class TrainingReport(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Calibration(msgspec.Struct, frozen=True, kw_only=True):
-    """logit(probability that a part is right) = slope x logit(its marginal) + offset (docs/maths.md, eq. 64)."""
+    """What each evidence of a part (`_core.EVIDENCE`) counts for it being right (docs/maths.md, eq. 64)."""
 
-    slope: float
-    offset: float
+    rays: dict[str, float]
+    """Where the rays of an image were asked."""
+    blind: dict[str, float]
+    """Where there were none."""
 
 
 class LearnedWeights(msgspec.Struct, frozen=True, kw_only=True):
@@ -58,7 +60,7 @@ class LearnedWeights(msgspec.Struct, frozen=True, kw_only=True):
     temperature: float | None = None
     """T of the probabilities (docs/maths.md, eq. 49), in units of the score; None: not calibrated, taken as 1."""
     calibration: Calibration | None = None
-    """From a part's marginal to the probability that it is right; None: the marginal as it is."""
+    """From what is known of a part to the probability that it is right; None: its marginal as it is."""
     training: TrainingReport | None = None
     format: Literal["boxwright.weights"] = "boxwright.weights"
     version: Literal[1] = 1

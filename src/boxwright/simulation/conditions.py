@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
-from boxwright.simulation.kinds import KINDS
+from boxwright.simulation.kinds import FURTHER_KINDS, KINDS
 
 
 class Conditions(msgspec.Struct, frozen=True, kw_only=True):
@@ -23,7 +23,7 @@ class Conditions(msgspec.Struct, frozen=True, kw_only=True):
 
     def check(self, category: str) -> None:
         """Raises ValueError, saying what would be right, where no frame of the category can be so."""
-        kinds = tuple(KINDS.get(category, ()))
+        kinds = tuple((KINDS | FURTHER_KINDS).get(category, ()))
         if self.variant is not None and self.variant not in kinds:
             raise ValueError(
                 f"variant is {self.variant!r}; of {category} it can be {', '.join(kinds) or 'none at all'}"

@@ -7,14 +7,16 @@ import numpy as np
 from boxwright.simulation.arrangement import arrange_boxes, arrange_clutter, arrange_things
 from boxwright.simulation.conditions import DRAWN, Conditions
 from boxwright.simulation.empty import draw_decoys
-from boxwright.simulation.kinds import KINDS
+from boxwright.simulation.kinds import FURTHER_KINDS, KINDS
 from boxwright.simulation.scene import Body, PlacedBox, Scene
 from boxwright.simulation.surroundings import draw_support, draw_walls
 from boxwright.simulation.views import draw_view
 from boxwright.types import Camera
 
 CATEGORIES = tuple(KINDS)
-"""The six that hold open boxes."""
+"""The six that hold open boxes, drawn in turn."""
+FURTHER_CATEGORIES = tuple(FURTHER_KINDS)
+"""Those that hold open boxes and are drawn only where they are named."""
 NONE = "none"
 """Frames without an open box."""
 BOX_COUNTS = (0.72, 0.2, 0.08)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from boxwright import _core
 from boxwright.simulation.conditions import DRAWN, Conditions
-from boxwright.simulation.drawing import CATEGORIES, NONE, draw_scene
+from boxwright.simulation.drawing import CATEGORIES, FURTHER_CATEGORIES, NONE, draw_scene
 from boxwright.simulation.faces import flat_faces, unit_normals
 from boxwright.simulation.panels import Panel
 from boxwright.simulation.poses import apply
@@ -74,7 +74,7 @@ def frame_name(category: str, index: int) -> str:
 
 def check_request(category: str, seed: int, index: int, boxes: int | None) -> None:
     """Raises ValueError, saying what would be right, when `make_frame` could not use these."""
-    known = (*CATEGORIES, NONE)
+    known = (*CATEGORIES, *FURTHER_CATEGORIES, NONE)
     if category not in known:
         raise ValueError(f"category is {category!r}; must be one of {', '.join(known)}")
     if seed < 0 or index < 0:

@@ -28,6 +28,7 @@ SIZES_M: dict[str, tuple[tuple[float, float], tuple[float, float], tuple[float, 
     "carton": ((0.20, 0.33), (0.16, 0.26), (0.28, 0.45)),
     "cake": ((0.20, 0.32), (0.18, 0.30), (0.10, 0.20)),
     "pizza": ((0.26, 0.42), (0.26, 0.42), (0.035, 0.06)),
+    "tote": ((0.26, 0.60), (0.18, 0.40), (0.08, 0.34)),
 }
 BOARDS_M = {"cake": (0.001, 0.002), "pizza": (0.0015, 0.003), "small": (0.003, 0.005)}
 CORRUGATED_M = (0.003, 0.007)
@@ -149,6 +150,17 @@ def half_slotted(rng: Rng, category: str, variant: str) -> OpenBox:
     return _box(rng, category, variant, lambda *_: (None, None, None, None))
 
 
+def lipped(rng: Rng, category: str, variant: str) -> OpenBox:
+    """A tote with a stiff lip round its rim: panels like flaps of one short length that lie flat outwards or droop."""
+
+    def flaps(_l: float, _w: float, _h: float, board: float) -> Flaps:
+        reach, angle_rad = _between(rng, (0.012, 0.06)), float(np.radians(_between(rng, (175.0, 215.0))))
+        first, second, third, fourth = (Flap(reach, angle_rad, board / 2 + 0.001) for _ in range(4))
+        return first, second, third, fourth
+
+    return _box(rng, category, variant, flaps)
+
+
 def uneven(rng: Rng, category: str, variant: str) -> OpenBox:
     """Four flaps, no two of one length, cut slanting."""
 
@@ -228,13 +240,15 @@ KINDS: dict[str, dict[str, Draw]] = {
     "pizza": {"pizza": pizza, "wings": pizza_wings, "tuck": pizza_tuck, "plain_lid": plain_lid},
 }
 """Kinds by category and variant name."""
+FURTHER_KINDS: dict[str, dict[str, Draw]] = {"tote": {"bin": half_slotted, "lipped": lipped}}
+"""Drawn only where their category is named: the six above go round in sets whose frames stay what they were."""
 RARE = {"half_slotted": 0.4, "plain_lid": 0.5}
 """How often these are drawn, against 1 for the others."""
 
 
 def draw_box(rng: Rng, category: str, variant: str | None = None) -> OpenBox:
     """A box of a category, of the variant if one is named, before its flaps are freed from one another."""
-    kinds = KINDS[category]
+    kinds = (KINDS | FURTHER_KINDS)[category]
     weights = np.array([RARE.get(name, 1.0) for name in kinds])
     name = variant or list(kinds)[int(rng.choice(len(kinds), p=weights / weights.sum()))]
     return kinds[name](rng, category, name)

@@ -5,12 +5,19 @@ from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.known_size import KnownSize, MatchedSize
 from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
+from boxwright.types.plan import FlapOutcome, FlapStatus, Plan, PlanSegment, SegmentKind, SmallestMove
+from boxwright.types.robot import Gripper, Opw, Place, RobotBox, RobotCapsule, RobotFile, RobotJoint, RobotLink
 from boxwright.types.segments import Segment, Segmentation
+from boxwright.types.simulation import FlapVerdict, Simulation
 from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
 
 __all__ = [
     "Camera",
     "Cloud",
+    "FlapOutcome",
+    "FlapStatus",
+    "FlapVerdict",
+    "Gripper",
     "Inference",
     "Intrinsics",
     "Joint",
@@ -19,14 +26,26 @@ __all__ = [
     "MatchedSize",
     "Model",
     "Object",
+    "Opw",
     "Parameter",
     "Part",
     "PartState",
+    "Place",
+    "Plan",
+    "PlanSegment",
     "Pose",
+    "RobotBox",
+    "RobotCapsule",
+    "RobotFile",
+    "RobotJoint",
+    "RobotLink",
     "ScoreTerm",
     "Seconds",
     "Segment",
+    "SegmentKind",
     "Segmentation",
+    "Simulation",
+    "SmallestMove",
     "Source",
     "SupportPlane",
     "TrueBox",

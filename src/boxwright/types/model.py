@@ -63,13 +63,16 @@ class Inference(msgspec.Struct, frozen=True, kw_only=True):
 
     `status` "optimal": proven, and `gap` is 0. "gap": not proven; `gap` bounds what a better one could add to the
     score, None where the method knows no bound. `alternatives` counts the other assignments ranked against this one.
+    `unsummed` is the share of the probability that sums over assignments left out at most, None where none were made.
     """
 
     status: Literal["optimal", "gap"]
     gap: float | None
     alternatives: int
+    unsummed: float | None = None
 
     def __post_init__(self) -> None:
+        require_probability("unsummed", self.unsummed)
         if self.gap is not None:
             require_not_negative("gap", [self.gap])
         if self.status == "optimal" and self.gap != 0.0:

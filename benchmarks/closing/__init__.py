@@ -1,0 +1,1 @@
+"""Boxes before an arm, their plans, and what becomes of them in physics."""

@@ -1,0 +1,91 @@
+//! The proposals that are worth a closer look.
+
+use super::flap_scan::ScannedFlap;
+use super::patch::Patch;
+use super::proposal::{proposals, Proposal, OF_FLAPS};
+use super::shell::{Rays, ShellLook};
+use super::sight::Sight;
+use super::upright::ways_up;
+use super::yaw::yaws;
+use crate::geometry::Vec3;
+use crate::perception::Scene;
+
+/// Of proposals that lie upon each other, and of all, so many are kept.
+const RIVALS: usize = 40;
+const MOST_SHELLS: usize = 140;
+
+/// A proposal with what the rays say of it.
+#[derive(Debug, Clone)]
+pub struct Shell {
+    pub proposal: Proposal,
+    pub looked: ShellLook,
+    pub score: f64,
+    pub flaps: [Option<ScannedFlap>; 4],
+}
+
+/// Proposals that the rays bear out, distinct, best first.
+pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
+    let patches = Patch::of_things(scene, sight);
+    let rays = Rays::new(sight);
+    let mut all = Vec::new();
+    for proposal in all_proposals(&patches) {
+        let looked = rays.look(sight, &proposal);
+        let score = looked.score() + OF_FLAPS * proposal.on_flaps;
+        if score > LEAST_SCORE {
+            all.push(Shell { proposal, looked, score, flaps: [None; 4] });
+        }
+    }
+    all.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let mut out: Vec<Shell> = Vec::new();
+    for shell in all {
+        let rivals = out.iter().filter(|other| overlap(&other.proposal, &shell.proposal)).count();
+        if rivals < RIVALS && !out.iter().any(|other| alike(&other.proposal, &shell.proposal)) {
+            out.push(shell);
+        }
+        if out.len() >= MOST_SHELLS {
+            break;
+        }
+    }
+    out
+}
+
+fn all_proposals(patches: &[Patch]) -> Vec<Proposal> {
+    let mut out = Vec::new();
+    for up in ways_up(patches) {
+        let x = (Vec3::x() - up * up.x).normalize();
+        let frame = [x, up.cross(&x), up];
+        out.extend(yaws(patches, &frame).into_iter().flat_map(|yaw| proposals(patches, &frame, yaw)));
+    }
+    out
+}
+
+/// Pixels for a box more than against it.
+pub const LEAST_SCORE: f64 = 300.0;
+const ALIKE_M: f64 = 0.009;
+
+fn alike(a: &Proposal, b: &Proposal) -> bool {
+    let same_axes = a.axes[0].dot(&b.axes[0]) > 0.998 && a.up.dot(&b.up) > 0.9993;
+    let near = |x: &[f64; 2], y: &[f64; 2]| (x[0] - y[0]).abs() < ALIKE_M && (x[1] - y[1]).abs() < ALIKE_M;
+    same_axes && near(&a.spans[0], &b.spans[0]) && near(&a.spans[1], &b.spans[1]) && near(&a.heights, &b.heights)
+}
+
+/// Whether one's middle lies in the other.
+pub fn overlap(a: &Proposal, b: &Proposal) -> bool {
+    let within = |a: &Proposal, b: &Proposal| {
+        let middle = middle(b);
+        (0..2).all(|i| (a.spans[i][0]..=a.spans[i][1]).contains(&a.axes[i].dot(&middle)))
+    };
+    within(a, b) || within(b, a)
+}
+
+/// Length, width and height over the boards, m.
+pub fn outer_m(proposal: &Proposal) -> [f64; 3] {
+    let [x, y] = proposal.spans;
+    [x[1] - x[0], y[1] - y[0], proposal.heights[1] - proposal.heights[0]]
+}
+
+pub fn middle(proposal: &Proposal) -> Vec3 {
+    let half = |span: &[f64; 2]| (span[0] + span[1]) / 2.0;
+    let [x, y] = proposal.spans.each_ref().map(half);
+    proposal.axes[0] * x + proposal.axes[1] * y + proposal.up * half(&proposal.heights)
+}

@@ -1,0 +1,263 @@
+//! The whole of it: which flaps, in which order, and the ways between them.
+
+use super::boards::met;
+use super::contact::Contacts;
+use super::flap::Standing;
+use super::guard::{Guard, Moment};
+use super::order;
+use super::planes::PlanesSearch;
+use super::problem::BoxProblem;
+use super::push::{closed_finger, PushMotion, Pusher};
+use super::reason::{Obstacle, Status, WhyNot};
+use super::request::Method;
+use super::settings::PlanningSettings;
+use super::transit::Transit;
+use crate::arm::{Arm, JointPositions};
+use crate::geometry::Vec3;
+
+/// What a piece of the arm's way is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Transit,
+    Approach,
+    Push,
+    Retreat,
+}
+
+/// A piece of the way without times: postures with clear lines between them.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    pub kind: Kind,
+    /// None in transit.
+    pub flap: Option<usize>,
+    pub positions: Vec<JointPositions>,
+    /// In a push: of each posture the hinge's angle, rad, and the point of touch, base frame.
+    pub hinge_rad: Vec<f64>,
+    pub contact: Vec<Vec3>,
+    /// Where all flaps are meanwhile, rad; in a push the pushed one moves.
+    pub angles_rad: Vec<f64>,
+}
+
+impl Piece {
+    fn new(kind: Kind, flap: Option<usize>, positions: Vec<JointPositions>, angles_rad: Vec<f64>) -> Self {
+        Self { kind, flap, positions, hinge_rad: Vec::new(), contact: Vec::new(), angles_rad }
+    }
+}
+
+/// What became of a flap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    pub status: Status,
+    /// One line; empty where it is planned.
+    pub reason: String,
+    /// Spent on its pushes.
+    pub seconds: f64,
+}
+
+impl Outcome {
+    pub fn new(status: Status, reason: String) -> Self {
+        Self { status, reason, seconds: 0.0 }
+    }
+}
+
+impl WhyNot {
+    fn outcome(self) -> Outcome {
+        Outcome::new(self.status, self.reason)
+    }
+}
+
+impl Kind {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Transit => "transit",
+            Self::Approach => "approach",
+            Self::Push => "push",
+            Self::Retreat => "retreat",
+        }
+    }
+}
+
+/// A closing without times.
+#[derive(Debug, Clone)]
+pub struct Closing {
+    /// Flaps as they are closed.
+    pub order: Vec<usize>,
+    /// In the problem's order.
+    pub outcomes: Vec<Outcome>,
+    pub pieces: Vec<Piece>,
+}
+
+/// Everything that stays the same while a box is closed.
+pub struct Closer<'a, G: Guard> {
+    pub arm: &'a Arm,
+    pub guard: &'a G,
+    pub problem: &'a BoxProblem,
+    pub settings: &'a PlanningSettings,
+    pub method: Method,
+    /// The flaps to close, by name; all that are open where there are none.
+    pub only: &'a [String],
+    /// Flaps that are not to be closed.
+    pub left_open: &'a [&'a str],
+}
+
+impl<G: Guard> Closer<'_, G> {
+    /// Plans the closing of all flaps that are open and seen, from the arm's posture `start` and back to it.
+    pub fn plan(&self, start: &JointPositions) -> Closing {
+        let angles_rad: Vec<f64> = self.problem.flaps.iter().map(|flap| flap.position_rad).collect();
+        let mut outcomes: Vec<Option<Outcome>> = (0..angles_rad.len()).map(|flap| self.needs_nothing(flap)).collect();
+        let asked = |flap: usize| {
+            let name = &self.problem.flaps[flap].name;
+            (self.only.is_empty() || self.only.contains(name)) && !self.left_open.contains(&name.as_str())
+        };
+        let open: Vec<usize> = (0..outcomes.len()).filter(|&flap| outcomes[flap].is_none() && asked(flap)).collect();
+        let ordered = match self.method {
+            Method::Layered => order::search(self, &open, &angles_rad),
+            Method::Paper => order::ascending_area(self, &open, &angles_rad),
+        };
+        for (flap, why) in ordered.why_not {
+            outcomes[flap] = Some(why.outcome());
+        }
+        let mut way = Way { closer: self, at: *start, angles_rad, order: Vec::new(), pieces: Vec::new() };
+        for (flap, push) in ordered.order.into_iter().zip(ordered.pushes) {
+            outcomes[flap] = Some(match way.close(flap, push) {
+                Ok(()) => Outcome::new(Status::Planned, String::new()),
+                Err(why) => why.outcome(),
+            });
+        }
+        way.home(start);
+        for (outcome, seconds) in outcomes.iter_mut().zip(ordered.seconds) {
+            if let Some(outcome) = outcome {
+                outcome.seconds = seconds;
+            }
+        }
+        let unknown = || Outcome::new(Status::OutOfTime, "was not tried".into());
+        Closing {
+            order: way.order,
+            outcomes: outcomes.into_iter().map(|outcome| outcome.unwrap_or_else(unknown)).collect(),
+            pieces: way.pieces,
+        }
+    }
+
+    /// What is known of a flap without planning.
+    pub fn needs_nothing(&self, flap: usize) -> Option<Outcome> {
+        let flap = &self.problem.flaps[flap];
+        let outcome = |status, reason: String| Some(Outcome::new(status, reason));
+        match flap.standing {
+            Standing::Absent => outcome(Status::Absent, "is not there".into()),
+            Standing::Hidden => outcome(Status::Hidden, "was not seen, so where it stands is not known".into()),
+            Standing::Seen if flap.position_rad.abs() <= self.settings.closed_rad => {
+                outcome(Status::AlreadyClosed, format!("stands at {:.1} degrees", flap.position_rad.to_degrees()))
+            }
+            Standing::Seen if flap.position_rad < 0.0 => {
+                let degrees = flap.position_rad.to_degrees();
+                outcome(
+                    Status::Blocked,
+                    format!("is pushed in to {degrees:.0} degrees; a push would go through the board"),
+                )
+            }
+            Standing::Seen => None,
+        }
+    }
+
+    /// How far a flap is pushed: less where it comes to lie on others or carries a tuck.
+    pub fn hold_rad(&self, flap: usize, moment: &Moment) -> f64 {
+        let lies_on_others = self.problem.flaps.iter().enumerate().any(|(k, other)| {
+            k != flap && other.standing != Standing::Absent && moment.angles_rad[k].abs() <= self.settings.closed_rad
+        });
+        let carries = !self.problem.flaps[flap].tucks.is_empty();
+        -if lies_on_others || carries { self.settings.overclose_on_others_rad } else { self.settings.overclose_rad }
+    }
+
+    /// One flap's push while the others stand as they do.
+    ///
+    /// # Errors
+    /// The status and the reason why there is none.
+    pub fn push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
+        if self.method == Method::Paper {
+            return self.paper_push(flap, moment);
+        }
+        let hold_rad = self.hold_rad(flap, moment);
+        if let Some(obstacle) = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings) {
+            return Err(WhyNot { status: Status::Blocked, reason: obstacle.to_string(), by_flaps: true });
+        }
+        self.pusher(flap, moment, hold_rad).plan()
+    }
+
+    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Pusher<'_, G> {
+        let half_board_m = self.problem.thickness_m / 2.0;
+        Pusher {
+            arm: self.arm,
+            guard: self.guard,
+            settings: self.settings,
+            contacts: Contacts::new(&self.problem.flaps[flap], closed_finger(self.arm), half_board_m, self.settings),
+            flap,
+            moment: moment.clone(),
+            hold_rad,
+            rest_rad: self.settings.rest_rad,
+        }
+    }
+
+    /// The paper's push, to closed and no further.
+    fn paper_push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
+        let pusher = self.pusher(flap, moment, 0.0);
+        PlanesSearch { pusher: &pusher, settings: self.settings }.plan()
+    }
+}
+
+/// The way so far.
+struct Way<'a, 'b, G: Guard> {
+    closer: &'a Closer<'b, G>,
+    at: JointPositions,
+    angles_rad: Vec<f64>,
+    order: Vec<usize>,
+    pieces: Vec<Piece>,
+}
+
+impl<G: Guard> Way<'_, '_, G> {
+    /// Goes to a flap and pushes it. A flap left open before changes what the others meet: the push is planned anew where the
+    /// one at hand no longer holds.
+    fn close(&mut self, flap: usize, push: PushMotion) -> Result<(), WhyNot> {
+        let ready = self.closer.arm.ready;
+        let Some(transit) = self.transit(&push.approach[0], &ready) else {
+            let reason = Obstacle::NoWay { to: "to it" }.to_string();
+            return Err(WhyNot { status: Status::Blocked, reason, by_flaps: false });
+        };
+        let resting = self.angles_rad.clone();
+        let meanwhile = push.meanwhile_rad;
+        let mut held = meanwhile.clone();
+        held[flap] = push.hinge_rad[push.hinge_rad.len() - 1];
+        let pushed = Some(flap);
+        self.add(Piece::new(Kind::Transit, None, transit, resting));
+        self.add(Piece::new(Kind::Approach, pushed, push.approach, meanwhile.clone()));
+        let piece = Piece::new(Kind::Push, pushed, push.push, meanwhile);
+        self.add(Piece { hinge_rad: push.hinge_rad, contact: push.contact, ..piece });
+        self.add(Piece::new(Kind::Retreat, pushed, push.retreat, held));
+        self.angles_rad[flap] = self.closer.settings.rest_rad;
+        self.order.push(flap);
+        Ok(())
+    }
+
+    /// Back to where the arm began, if there is a way: an arm that stays stands clear.
+    fn home(&mut self, start: &JointPositions) {
+        if self.pieces.is_empty() {
+            return;
+        }
+        if let Some(transit) = self.transit(start, &self.closer.arm.ready.clone()) {
+            self.add(Piece::new(Kind::Transit, None, transit, self.angles_rad.clone()));
+        }
+    }
+
+    fn transit(&self, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
+        let moment = Moment::resting(&self.angles_rad);
+        let closer = self.closer;
+        Transit { arm: closer.arm, guard: closer.guard, settings: closer.settings, moment: &moment }
+            .way(&self.at, to, via)
+    }
+
+    fn add(&mut self, piece: Piece) {
+        if let Some(last) = piece.positions.last() {
+            self.at = *last;
+        }
+        self.pieces.push(piece);
+    }
+}

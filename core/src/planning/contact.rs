@@ -1,0 +1,92 @@
+//! How a finger may touch a flap: places on its outer face, tool orientations, and what is good about them.
+
+use nalgebra::UnitQuaternion;
+
+use super::flap::{Flap, FlapFrame};
+use super::orientations::OrientationGrid;
+use super::settings::PlanningSettings;
+use super::touch::{flap_from_tool, Finger};
+use crate::geometry::{Rigid, Vec3};
+
+/// A tool pose in which the finger touches the flap, and what speaks against it.
+#[derive(Debug, Clone, Copy)]
+pub struct Grip {
+    pub base_from_tool: Rigid,
+    /// The point of touch, base frame.
+    pub contact: Vec3,
+    /// Eq. 85: 0 for a push on the middle of the free edge, square to the face; grows as the lever shortens and the tool leans.
+    pub penalty: f64,
+}
+
+/// The contacts of one flap with one finger.
+pub struct Contacts<'a> {
+    pub flap: &'a Flap,
+    pub finger: Finger,
+    pub half_board_m: f64,
+    pub settings: &'a PlanningSettings,
+    /// Tool points over the flap's plane, along the hinge and away from it.
+    pub along_m: Vec<f64>,
+    pub away_m: Vec<f64>,
+    closed_from_base: UnitQuaternion<f64>,
+}
+
+impl<'a> Contacts<'a> {
+    pub fn new(flap: &'a Flap, finger: Finger, half_board_m: f64, settings: &'a PlanningSettings) -> Self {
+        let inset = settings.contact_inset_m;
+        let [most_along, most_away] = settings.most_contacts;
+        let least_away = settings.least_lever * flap.length_m();
+        let frame = flap.frame(0.0).base_from_flap();
+        let rotation = nalgebra::Rotation3::from_matrix_unchecked(frame.rotation);
+        Self {
+            flap,
+            finger,
+            half_board_m,
+            settings,
+            along_m: spread(inset, flap.hinge_length_m() - inset, settings.contact_step_m, most_along),
+            away_m: spread(least_away, flap.length_m() + settings.contact_beyond_m, settings.contact_step_m, most_away),
+            closed_from_base: UnitQuaternion::from_rotation_matrix(&rotation),
+        }
+    }
+
+    /// base_from_tool's rotation of an orientation of the grid.
+    pub fn rotation(&self, orientation: usize) -> UnitQuaternion<f64> {
+        self.closed_from_base * OrientationGrid::shared().rotations[orientation]
+    }
+
+    /// The tool pose at which a finger so turned, over the place `at` of the flap's plane, touches the flap at an angle. None where
+    /// it misses the flap or holds it badly: too near its hinge, too near its own tip or end, or leaning too far over.
+    pub fn grip(&self, frame: &FlapFrame, at: [f64; 2], base_from_tool: &UnitQuaternion<f64>) -> Option<Grip> {
+        let rotation = base_from_tool.to_rotation_matrix().into_inner();
+        let turned = flap_from_tool(frame, &rotation);
+        let into_face = -turned[(2, 2)];
+        if into_face < -self.settings.most_lean {
+            return None;
+        }
+        let touch = self.finger.touch(&self.flap.outline, self.half_board_m, at, &turned)?;
+        let lever = touch.contact[1] / self.flap.length_m();
+        let tool = Vec3::new(at[0], at[1], touch.tool_outward_m + self.settings.touch_gap_m);
+        let contact = Vec3::new(touch.contact[0], touch.contact[1], self.half_board_m);
+        let from_tip_m = (tool - contact).dot(&turned.column(2));
+        let hooks = into_face < 0.0;
+        let held = from_tip_m >= self.settings.least_hook_m && from_tip_m <= self.finger.length_m - 0.01;
+        if lever < self.settings.least_lever || (hooks && !held) {
+            return None;
+        }
+        let aside = (touch.contact[0] / self.flap.hinge_length_m() - 0.5).abs();
+        let penalty = (1.0 - lever).max(0.0) + 0.6 * aside + (0.7 - into_face).max(0.0).powi(2) + (-into_face).max(0.0);
+        Some(Grip {
+            base_from_tool: Rigid::new(rotation, frame.at(tool.x, tool.y, tool.z)),
+            contact: frame.at(contact.x, contact.y, contact.z),
+            penalty,
+        })
+    }
+}
+
+/// Values from low to high a step apart, at most so many, both ends among them; the middle alone where they pass each other.
+fn spread(low: f64, high: f64, step: f64, most: usize) -> Vec<f64> {
+    if high <= low {
+        return vec![(low + high) / 2.0];
+    }
+    let count = (((high - low) / step).ceil() as usize + 1).clamp(2, most);
+    (0..count).map(|k| low + (high - low) * k as f64 / (count - 1) as f64).collect()
+}

@@ -1,0 +1,299 @@
+//! The layered search: hinge angle by hinge angle, which contact, tool orientation and posture of the arm pushes the flap along.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
+
+use super::beam::{trace, Kept, Key, State};
+use super::contact::{Contacts, Grip};
+use super::guard::{Guard, Moment};
+use super::orientations::{blend, OrientationGrid};
+use super::posture::{limit_penalty, nearest, out_of_reach};
+use super::reason::{Obstacle, Tally};
+use super::settings::PlanningSettings;
+use crate::arm::{Arm, JointPositions, Solutions};
+
+/// What a layer's search needs to know.
+pub struct Layers<'a, G: Guard> {
+    pub arm: &'a Arm,
+    pub guard: &'a G,
+    pub contacts: &'a Contacts<'a>,
+    pub settings: &'a PlanningSettings,
+    pub flap: usize,
+    /// Where all flaps are; this one moves.
+    pub moment: &'a Moment,
+    /// Hinge angles, first to last, rad, and where all flaps are then.
+    pub angles_rad: &'a [f64],
+    pub moments: &'a [Moment],
+}
+
+/// How far a search came: whole paths by cost, or the layer at which it ended and what was in the way.
+pub enum Found {
+    Paths(Vec<Vec<State>>),
+    Stuck { layer: usize, tally: Tally },
+}
+
+type Reached = Option<Rc<(Grip, Solutions)>>;
+/// The poses of one layer that were asked for, by place and orientation.
+type Memory = RefCell<HashMap<([usize; 2], usize), Reached>>;
+impl<G: Guard> Layers<'_, G> {
+    /// Searches with so many states kept in each layer. `starts` and `ends` say whether the arm can come to a first state, and leave
+    /// a last one.
+    pub fn search(
+        &self,
+        beam: usize,
+        starts: &mut dyn FnMut(&JointPositions, &Grip) -> Option<Obstacle>,
+        ends: &mut dyn FnMut(&JointPositions, &Grip) -> Option<Obstacle>,
+    ) -> Found {
+        let mut tally = Tally::default();
+        let mut layers = vec![self.first_layer(beam, starts, &mut tally)];
+        for layer in 1..self.angles_rad.len() {
+            let last = layers.last().map_or(&[][..], |states| states.as_slice());
+            if last.is_empty() {
+                return Found::Stuck { layer: layer - 1, tally };
+            }
+            tally = Tally::default();
+            let next = self.next_layer(layer, last, beam, &mut tally);
+            layers.push(next);
+        }
+        let last = self.angles_rad.len() - 1;
+        let frame = self.contacts.flap.frame(self.angles_rad[last]);
+        let leaves = |state: &&usize| {
+            let state = &layers[last][**state];
+            let rotation = self.contacts.rotation(state.orientation);
+            let Some(grip) = self.contacts.grip(&frame, self.place_m(state.place), &rotation) else { return false };
+            match ends(&state.positions, &grip) {
+                Some(obstacle) => {
+                    tally.add(obstacle);
+                    false
+                }
+                None => true,
+            }
+        };
+        let order: Vec<usize> = (0..layers[last].len()).collect();
+        let ended: Vec<usize> = order.iter().filter(leaves).take(MOST_PATHS).copied().collect();
+        if ended.is_empty() {
+            return Found::Stuck { layer: last, tally };
+        }
+        Found::Paths(ended.into_iter().map(|end| trace(&layers, end)).collect())
+    }
+
+    pub fn place_m(&self, place: [usize; 2]) -> [f64; 2] {
+        [self.contacts.along_m[place[0]], self.contacts.away_m[place[1]]]
+    }
+
+    /// The best first states, which the arm can come to.
+    fn first_layer(
+        &self,
+        beam: usize,
+        starts: &mut dyn FnMut(&JointPositions, &Grip) -> Option<Obstacle>,
+        tally: &mut Tally,
+    ) -> Vec<State> {
+        let memory = Memory::default();
+        let mut kept = Kept::new(START_WIDTH * beam, beam);
+        let mut tries = 0;
+        for (place, orientation) in self.grips_by_penalty() {
+            if kept.is_full() || tries > START_TRIES {
+                break;
+            }
+            let Some(reached) = self.reached(0, place, orientation, None, &memory, tally) else { continue };
+            let (grip, solutions) = &*reached;
+            if solutions.is_empty() {
+                tally.add(out_of_reach(self.arm, &grip.base_from_tool));
+            }
+            for solution in solutions {
+                let state = State {
+                    place,
+                    orientation,
+                    positions: solution.positions,
+                    branch: solution.branch,
+                    cost: grip.penalty + limit_penalty(self.arm, &solution.positions),
+                    before: 0,
+                };
+                if !kept.has_room(&state) {
+                    continue;
+                }
+                tries += 1;
+                let conflict = self.conflict(&state.positions, self.angles_rad[0]);
+                match conflict.or_else(|| starts(&state.positions, grip)) {
+                    Some(obstacle) => tally.add(obstacle),
+                    None => kept.push(state),
+                }
+            }
+        }
+        kept.states
+    }
+
+    /// All contacts of the first layer, the best first.
+    fn grips_by_penalty(&self) -> Vec<([usize; 2], usize)> {
+        let frame = self.contacts.flap.frame(self.angles_rad[0]);
+        let mut found = Vec::new();
+        for orientation in 0..OrientationGrid::shared().size() {
+            let rotation = self.contacts.rotation(orientation);
+            for along in 0..self.contacts.along_m.len() {
+                for away in 0..self.contacts.away_m.len() {
+                    let place = [along, away];
+                    if let Some(grip) = self.contacts.grip(&frame, self.place_m(place), &rotation) {
+                        found.push((grip.penalty, place, orientation));
+                    }
+                }
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        found.into_iter().map(|(_, place, orientation)| (place, orientation)).collect()
+    }
+
+    /// The cheapest states that follow those of the layer before.
+    fn next_layer(&self, layer: usize, last: &[State], beam: usize, tally: &mut Tally) -> Vec<State> {
+        let memory = Memory::default();
+        let mut candidates: BTreeMap<Key, State> = BTreeMap::new();
+        for (number, state) in last.iter().enumerate() {
+            self.follow(layer, number, state, &memory, &mut candidates, tally);
+        }
+        let mut ordered: Vec<(Key, State)> = candidates.into_iter().collect();
+        ordered.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost).then_with(|| a.0.cmp(&b.0)));
+        let mut kept = Kept::new(beam, beam);
+        for (_, state) in ordered {
+            if kept.is_full() {
+                break;
+            }
+            if !kept.has_room(&state) {
+                continue;
+            }
+            let between = self.between(layer, &last[state.before], &state);
+            match self.conflict(&state.positions, self.angles_rad[layer]).or(between) {
+                Some(obstacle) => tally.add(obstacle),
+                None => kept.push(state),
+            }
+        }
+        kept.states
+    }
+
+    /// Adds what can follow a state: the same contact with a turned tool, or a contact beside it.
+    fn follow(
+        &self,
+        layer: usize,
+        number: usize,
+        state: &State,
+        memory: &Memory,
+        candidates: &mut BTreeMap<Key, State>,
+        tally: &mut Tally,
+    ) {
+        let near = &OrientationGrid::shared().near[state.orientation];
+        let turned = near.iter().map(|&(orientation, angle_rad)| (state.place, orientation, 0.3 * angle_rad));
+        let slid = self.places_beside(state.place).map(|place| (place, state.orientation, 0.15));
+        for (place, orientation, change) in turned.chain(slid) {
+            let near = Some(&state.positions);
+            let Some(reached) = self.reached(layer, place, orientation, near, memory, tally) else { continue };
+            let (grip, solutions) = &*reached;
+            if solutions.is_empty() {
+                tally.add(out_of_reach(self.arm, &grip.base_from_tool));
+            }
+            let mut follows = false;
+            for solution in solutions {
+                let turns = solution.positions.iter().zip(state.positions.iter()).map(|(a, b)| (a - b).abs());
+                let (most, squares) = turns.fold((0f64, 0.0), |(most, sum), turn| (most.max(turn), sum + turn * turn));
+                if most > self.settings.most_turn_rad {
+                    continue;
+                }
+                follows = true;
+                let cost = state.cost
+                    + 0.3 * grip.penalty
+                    + change
+                    + 0.5 * squares
+                    + 0.3 * limit_penalty(self.arm, &solution.positions);
+                let next = State {
+                    place,
+                    orientation,
+                    positions: solution.positions,
+                    branch: solution.branch,
+                    cost,
+                    before: number,
+                };
+                let known = candidates.entry(next.key()).or_insert(next);
+                if cost < known.cost {
+                    *known = next;
+                }
+            }
+            if !follows && !solutions.is_empty() {
+                tally.add(Obstacle::Jump);
+            }
+        }
+    }
+
+    fn places_beside(&self, [along, away]: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
+        let size = [self.contacts.along_m.len(), self.contacts.away_m.len()];
+        let beside =
+            [[along.wrapping_sub(1), away], [along + 1, away], [along, away.wrapping_sub(1)], [along, away + 1]];
+        beside.into_iter().filter(move |place| place[0] < size[0] && place[1] < size[1])
+    }
+
+    /// The pose of a contact in a layer and the arm's postures for it; None where the finger cannot touch the flap so.
+    fn reached(
+        &self,
+        layer: usize,
+        place: [usize; 2],
+        orientation: usize,
+        near: Option<&JointPositions>,
+        memory: &Memory,
+        tally: &mut Tally,
+    ) -> Reached {
+        if let Some(known) = memory.borrow().get(&(place, orientation)) {
+            return known.clone();
+        }
+        let frame = self.contacts.flap.frame(self.angles_rad[layer]);
+        let grip = self.contacts.grip(&frame, self.place_m(place), &self.contacts.rotation(orientation));
+        let moment = &self.moments[layer];
+        let clear =
+            grip.filter(|grip| match self.guard.tool_conflict(&grip.base_from_tool, moment, self.clearance_m()) {
+                Some(obstacle) => {
+                    tally.add(obstacle);
+                    false
+                }
+                None => true,
+            });
+        let reached = clear.map(|grip| {
+            let solutions = match near {
+                Some(near) => self.arm.inverse_near(&grip.base_from_tool, near),
+                None => self.arm.inverse(&grip.base_from_tool),
+            };
+            Rc::new((grip, solutions))
+        });
+        memory.borrow_mut().insert((place, orientation), reached.clone());
+        reached
+    }
+
+    /// Half way between two layers.
+    fn between(&self, layer: usize, from: &State, to: &State) -> Option<Obstacle> {
+        let angle_rad = (self.angles_rad[layer - 1] + self.angles_rad[layer]) / 2.0;
+        let (p, q) = (self.place_m(from.place), self.place_m(to.place));
+        let at = [(p[0] + q[0]) / 2.0, (p[1] + q[1]) / 2.0];
+        let rotation =
+            blend(&[(self.contacts.rotation(from.orientation), 0.5), (self.contacts.rotation(to.orientation), 0.5)]);
+        let Some(grip) = self.contacts.grip(&self.contacts.flap.frame(angle_rad), at, &rotation) else {
+            return Some(Obstacle::Jump);
+        };
+        let solutions = self.arm.inverse_near(&grip.base_from_tool, &from.positions);
+        let Some((positions, turn)) = nearest(&solutions, &from.positions) else {
+            return Some(out_of_reach(self.arm, &grip.base_from_tool));
+        };
+        if turn > self.settings.most_turn_rad {
+            return Some(Obstacle::Jump);
+        }
+        self.conflict(&positions, angle_rad)
+    }
+
+    fn conflict(&self, positions: &JointPositions, angle_rad: f64) -> Option<Obstacle> {
+        self.guard.conflict(positions, &self.moment.pushing(self.flap, angle_rad), self.clearance_m())
+    }
+
+    fn clearance_m(&self) -> f64 {
+        self.settings.clearance_m + self.settings.search_margin_m
+    }
+}
+
+/// Whole paths handed back, at most.
+const MOST_PATHS: usize = 6;
+/// The first layer is this much wider than the others, and this many postures are tried for it.
+const START_WIDTH: usize = 2;
+const START_TRIES: usize = 2000;

@@ -1,0 +1,116 @@
+//! Straight lines of the tool: off a flap, and then out of its way.
+
+use super::contact::Grip;
+use super::flap::FlapFrame;
+use super::guard::{Guard, Moment};
+use super::posture::nearest;
+use super::reason::Obstacle;
+use super::settings::PlanningSettings;
+use crate::arm::{Arm, JointPositions};
+use crate::geometry::{Rigid, Vec3};
+
+/// Follows lines of the tool with an arm.
+pub struct Lines<'a, G: Guard> {
+    pub arm: &'a Arm,
+    pub guard: &'a G,
+    pub settings: &'a PlanningSettings,
+}
+
+/// A flap that follows the finger as it springs back is given this many times the stand-off, one after the other.
+const STAND_OFFS: [f64; 4] = [1.0, 2.0, 4.0, 6.0];
+/// Less of a way out is none, of `withdraw_m`.
+const LEAST_WAY_OUT: f64 = 0.25;
+
+impl<G: Guard> Lines<'_, G> {
+    /// Postures from a touch to a place where nothing is near: off the face, then out along the first direction that is clear.
+    /// `touching` is the moment of the touch, `free` that after it.
+    ///
+    /// # Errors
+    /// What was in the way of the last direction tried.
+    pub fn leave(
+        &self,
+        from: &JointPositions,
+        grip: &Grip,
+        frame: &FlapFrame,
+        touching: &Moment,
+        free: &Moment,
+    ) -> Result<Vec<JointPositions>, Obstacle> {
+        let mut why = Obstacle::NoWay { to: "off the flap" };
+        for off in STAND_OFFS.map(|factor| factor * self.settings.stand_off_m) {
+            let first = match self.line(from, &grip.base_from_tool, &(frame.outward * off), touching) {
+                (first, None) => first,
+                (_, Some(obstacle)) => return Err(obstacle),
+            };
+            let stood = first[first.len() - 1];
+            let pose = moved(&grip.base_from_tool, &(frame.outward * off));
+            if let Some(obstacle) = self.conflict(&stood, free) {
+                why = obstacle;
+                continue;
+            }
+            match self.way_out(&stood, &pose, frame, free) {
+                Ok(second) => return Ok([&first[..], &second[1..]].concat()),
+                Err(obstacle) => why = obstacle,
+            }
+        }
+        Err(why)
+    }
+
+    /// The longest of the first lines out that lead far enough.
+    fn way_out(
+        &self,
+        from: &JointPositions,
+        pose: &Rigid,
+        frame: &FlapFrame,
+        free: &Moment,
+    ) -> Result<Vec<JointPositions>, Obstacle> {
+        let back = -Vec3::from(pose.rotation.column(2));
+        let directions = [back, (back + frame.outward).normalize(), frame.outward, Vec3::z()];
+        let mut why = Obstacle::NoWay { to: "off the flap" };
+        for direction in directions {
+            let (line, obstacle) = self.line(from, pose, &(direction * self.settings.withdraw_m), free);
+            let share = line.len() as f64 * self.settings.line_step_m / self.settings.withdraw_m;
+            match obstacle {
+                None => return Ok(line),
+                Some(_) if share > LEAST_WAY_OUT => return Ok(line),
+                Some(obstacle) => why = obstacle,
+            }
+        }
+        Err(why)
+    }
+
+    /// Postures along a straight line of the tool as far as it is clear, and what ended it.
+    fn line(
+        &self,
+        from: &JointPositions,
+        pose: &Rigid,
+        way: &Vec3,
+        moment: &Moment,
+    ) -> (Vec<JointPositions>, Option<Obstacle>) {
+        let steps = (way.norm() / self.settings.line_step_m).ceil().max(1.0) as usize;
+        let mut line = vec![*from];
+        for step in 1..=steps {
+            let target = moved(pose, &(way * (step as f64 / steps as f64)));
+            let last = line[line.len() - 1];
+            let solutions = self.arm.inverse_near(&target, &last);
+            let Some((positions, turn)) = nearest(&solutions, &last) else {
+                return (line, Some(Obstacle::Reach));
+            };
+            if turn > self.settings.most_sample_turn_rad {
+                return (line, Some(Obstacle::Jump));
+            }
+            if let Some(obstacle) = self.conflict(&positions, moment) {
+                return (line, Some(obstacle));
+            }
+            line.push(positions);
+        }
+        (line, None)
+    }
+
+    fn conflict(&self, positions: &JointPositions, moment: &Moment) -> Option<Obstacle> {
+        self.guard.conflict(positions, moment, self.settings.clearance_m + self.settings.search_margin_m)
+    }
+}
+
+fn moved(pose: &Rigid, way: &Vec3) -> Rigid {
+    Rigid::new(pose.rotation, pose.translation + way)
+}

@@ -1,0 +1,44 @@
+//! How an arm closes a box: which flaps in which order, pushed how, and why not.
+//!
+//! Geometry of flaps and fingers (`flap`, `touch`, `contact`), the layered search of one push (`layers`, `push`), the ways to it and
+//! between flaps (`line`, `transit`), the order (`boards`, `order`, `closing`), times (`timing`); beside them the planner of 2011 (`planes`)
+//! and brute force (`exhaustive`), which tables hold the planner against. Metres, radians, the robot's base frame.
+
+mod answer;
+mod beam;
+mod boards;
+mod closing;
+mod contact;
+mod exhaustive;
+mod flap;
+mod guard;
+mod layers;
+mod line;
+mod order;
+mod orientations;
+mod planes;
+mod posture;
+mod problem;
+mod push;
+mod reason;
+mod request;
+mod settings;
+mod surroundings;
+mod timing;
+mod touch;
+mod transit;
+
+pub use answer::{Answer, Conflict, FlapAnswer, Segment};
+pub use boards::quads_cross;
+pub use closing::{Closer, Closing, Kind, Outcome, Piece};
+pub use contact::{Contacts, Grip};
+pub use flap::{Flap, FlapFrame, Standing};
+pub use guard::{Guard, Moment};
+pub use problem::{Board, BoxProblem, MeasuredBox, MeasuredFlap};
+pub use push::{closed_finger, PushMotion, Pusher};
+pub use reason::{Obstacle, Status, WhyNot};
+pub use request::{Method, Request, SceneBox};
+pub use settings::PlanningSettings;
+pub use surroundings::Surroundings;
+pub use timing::{time, Bounds, Timed};
+pub use touch::Finger;

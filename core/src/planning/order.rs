@@ -1,0 +1,147 @@
+//! In which order flaps are closed.
+
+use std::collections::HashMap;
+use std::time::Instant;
+
+use super::closing::Closer;
+use super::guard::{Guard, Moment};
+use super::push::PushMotion;
+use super::reason::WhyNot;
+
+/// The order that closes most flaps, their pushes, and why the others stay open.
+pub struct Ordered {
+    pub order: Vec<usize>,
+    pub pushes: Vec<PushMotion>,
+    pub why_not: Vec<(usize, WhyNot)>,
+    /// Spent on each flap, in the problem's order.
+    pub seconds: Vec<f64>,
+}
+
+type Tried = Result<PushMotion, WhyNot>;
+
+/// Depth first over orders, the likeliest first, each push planned once for each set of flaps closed before it. The first order that
+/// closes all ends the search; else the first of those that close most.
+pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
+    let mut search = Search {
+        closer,
+        known: HashMap::new(),
+        best: Vec::new(),
+        wanted: open.len(),
+        seconds: vec![0.0; angles_rad.len()],
+        hopeless: Vec::new(),
+    };
+    let ranked = likeliest_first(closer, open);
+    search.extend(&mut Vec::new(), &ranked, angles_rad);
+    let best = search.best.clone();
+    let mut pushes = Vec::new();
+    for k in 0..best.len() {
+        if let Some(Ok(motion)) = search.known.remove(&(best[k], closed_set(&best[..k]))) {
+            pushes.push(motion);
+        }
+    }
+    let left = ranked.iter().filter(|flap| !best.contains(flap));
+    let why_not = left.filter_map(|&flap| Some((flap, search.why_not(flap, &best)?))).collect();
+    Ordered { order: best, pushes, why_not, seconds: search.seconds }
+}
+
+/// As the paper closes them: by area, ties by number, each once, whatever becomes of the others.
+pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
+    let mut ranked = open.to_vec();
+    let area = |flap: usize| closer.problem.flaps[flap].area_m2();
+    ranked.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
+    let mut angles_rad = angles_rad.to_vec();
+    let mut found =
+        Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new(), seconds: vec![0.0; angles_rad.len()] };
+    for flap in ranked {
+        let started = Instant::now();
+        match closer.push(flap, &Moment::resting(&angles_rad)) {
+            Ok(push) => {
+                angles_rad[flap] = closer.settings.rest_rad;
+                found.order.push(flap);
+                found.pushes.push(push);
+            }
+            Err(why) => found.why_not.push((flap, why)),
+        }
+        found.seconds[flap] = started.elapsed().as_secs_f64();
+    }
+    found
+}
+
+/// What goes under goes first: short hinges carry the minor flaps of a carton, short flaps lie under long ones, and what carries a
+/// tuck goes in last.
+fn likeliest_first<G: Guard>(closer: &Closer<'_, G>, open: &[usize]) -> Vec<usize> {
+    let mut order = open.to_vec();
+    let rank = |flap: usize| {
+        let flap = &closer.problem.flaps[flap];
+        (!flap.tucks.is_empty(), flap.area_m2())
+    };
+    order.sort_by(|&a, &b| {
+        let (a_rank, b_rank) = (rank(a), rank(b));
+        a_rank.0.cmp(&b_rank.0).then(a_rank.1.total_cmp(&b_rank.1)).then(a.cmp(&b))
+    });
+    order
+}
+
+struct Search<'a, 'b, G: Guard> {
+    closer: &'a Closer<'b, G>,
+    known: HashMap<(usize, u32), Tried>,
+    best: Vec<usize>,
+    wanted: usize,
+    seconds: Vec<f64>,
+    /// Flaps that nothing but themselves, the arm and what stands still keeps open.
+    hopeless: Vec<usize>,
+}
+
+impl<G: Guard> Search<'_, '_, G> {
+    /// True when all are closed.
+    fn extend(&mut self, order: &mut Vec<usize>, rest: &[usize], angles_rad: &[f64]) -> bool {
+        if order.len() > self.best.len() {
+            self.best.clone_from(order);
+        }
+        if order.len() + self.hopeless.len() == self.wanted {
+            return true;
+        }
+        for &flap in rest {
+            if !self.can_push(flap, order, angles_rad) {
+                continue;
+            }
+            order.push(flap);
+            let others: Vec<usize> = rest.iter().copied().filter(|&other| other != flap).collect();
+            let mut after = angles_rad.to_vec();
+            after[flap] = self.closer.settings.rest_rad;
+            if self.extend(order, &others, &after) {
+                return true;
+            }
+            order.pop();
+        }
+        false
+    }
+
+    /// Why a flap cannot be closed after those of an order, or before any.
+    fn why_not(&self, flap: usize, order: &[usize]) -> Option<WhyNot> {
+        let sets = (0..=order.len()).rev().map(|count| closed_set(&order[..count]));
+        let mut tried = sets.filter_map(|set| self.known.get(&(flap, set)));
+        tried.find_map(|tried| tried.as_ref().err().cloned())
+    }
+
+    fn can_push(&mut self, flap: usize, before: &[usize], angles_rad: &[f64]) -> bool {
+        if self.hopeless.contains(&flap) {
+            return false;
+        }
+        let key = (flap, closed_set(before));
+        if !self.known.contains_key(&key) {
+            let started = Instant::now();
+            let tried = self.closer.push(flap, &Moment::resting(angles_rad));
+            self.seconds[flap] += started.elapsed().as_secs_f64();
+            if tried.as_ref().is_err_and(|why| !why.by_flaps) {
+                self.hopeless.push(flap);
+            }
+            self.known.insert(key, tried);
+        }
+        self.known[&key].is_ok()
+    }
+}
+
+fn closed_set(flaps: &[usize]) -> u32 {
+    flaps.iter().map(|flap| 1 << flap).sum()
+}

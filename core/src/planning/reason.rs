@@ -1,0 +1,95 @@
+//! Why a flap stays open.
+
+use std::fmt;
+
+/// What kept a posture of the arm from being used.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Obstacle {
+    /// The tool's pose is out of the arm's reach.
+    Reach,
+    /// The arm reaches it, but not within the limits of this joint.
+    Limit { joint: String },
+    /// This body comes too near to that one.
+    Near { body: String, other: String },
+    /// Something comes too near to something; which was not asked.
+    Something,
+    /// Two boards meet, whatever the arm does.
+    Boards { flap: String, other: String },
+    /// The arm cannot follow without a jump of its joints.
+    Jump,
+    /// There is no way from the arm's posture before to this flap, or back.
+    NoWay { to: &'static str },
+}
+
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reach => write!(f, "is out of the arm's reach"),
+            Self::Limit { joint } => write!(f, "is reached only beyond the limits of {joint}"),
+            Self::Near { body, other } => write!(f, "{body} comes too near to {other}"),
+            Self::Something => write!(f, "something is in the way"),
+            Self::Boards { flap, other } => write!(f, "{flap} meets {other}"),
+            Self::Jump => write!(f, "the arm would have to change its posture while pushing"),
+            Self::NoWay { to } => write!(f, "no way was found {to}"),
+        }
+    }
+}
+
+/// How often each obstacle was met; the commonest tells the reason.
+#[derive(Debug, Clone, Default)]
+pub struct Tally {
+    counts: std::collections::BTreeMap<Obstacle, usize>,
+}
+
+impl Tally {
+    pub fn add(&mut self, obstacle: Obstacle) {
+        *self.counts.entry(obstacle).or_default() += 1;
+    }
+
+    pub fn any(&self, passes: impl Fn(&Obstacle) -> bool) -> bool {
+        self.counts.keys().any(passes)
+    }
+
+    /// The commonest of those that pass, ties by their order.
+    pub fn commonest(&self, passes: impl Fn(&Obstacle) -> bool) -> Option<&Obstacle> {
+        let passing = self.counts.iter().filter(|(obstacle, _)| passes(obstacle));
+        passing.rev().max_by_key(|(_, count)| **count).map(|(obstacle, _)| obstacle)
+    }
+}
+
+/// A flap's status, as docs/formats.md has them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    Planned,
+    AlreadyClosed,
+    Hidden,
+    Absent,
+    Unreachable,
+    JointLimit,
+    Blocked,
+    OutOfTime,
+}
+
+impl Status {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Planned => "planned",
+            Self::AlreadyClosed => "already_closed",
+            Self::Hidden => "hidden",
+            Self::Absent => "absent",
+            Self::Unreachable => "unreachable",
+            Self::JointLimit => "joint_limit",
+            Self::Blocked => "blocked",
+            Self::OutOfTime => "out_of_time",
+        }
+    }
+}
+
+/// Why a flap could not be planned: the status, and one line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WhyNot {
+    pub status: Status,
+    pub reason: String,
+    /// Whether other flaps had a part in it: then it may be otherwise once they have moved.
+    pub by_flaps: bool,
+}

@@ -1,0 +1,152 @@
+//! The planner's face: one question as data, one answer as data.
+
+use serde::Deserialize;
+
+use super::answer::{timed, Answer};
+use super::closing::Closer;
+use super::exhaustive::Exhaustive;
+use super::flap::Standing;
+use super::guard::Moment;
+use super::problem::MeasuredBox;
+use super::reason::Obstacle;
+use super::settings::PlanningSettings;
+use super::surroundings::Surroundings;
+use crate::arm::Arm;
+use crate::collision::{OrientedBox, Solid};
+use crate::error::{InputError, Result};
+use crate::geometry::{Rigid, Vec3};
+
+/// A box beside the one to close: its centre's pose and its sizes, metres, base frame.
+#[derive(Debug, Clone, Deserialize)]
+pub struct SceneBox {
+    pub name: String,
+    pub centre_m: [f64; 3],
+    /// Rows of the rotation from the box's axes to the base's.
+    pub rotation: [[f64; 3]; 3],
+    pub size_m: [f64; 3],
+}
+
+/// How often a plan is made again with a wider margin, where its motion came too near to something between two postures, before the
+/// flap is left open.
+const WIDER: i32 = 2;
+
+/// What is to be closed, amid what, and how.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Request {
+    #[serde(rename = "box")]
+    pub measured: MeasuredBox,
+    #[serde(default)]
+    pub scene: Vec<SceneBox>,
+    #[serde(default)]
+    pub settings: PlanningSettings,
+    #[serde(default)]
+    pub method: Method,
+    /// Where it holds names: the flaps to close; all others stay as they are.
+    #[serde(default)]
+    pub only: Vec<String>,
+    /// Flaps that were closed before and rest where they were let go.
+    #[serde(default)]
+    pub closed: Vec<String>,
+}
+
+/// Which planner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Over contacts, tool angles and postures, in the order that closes most.
+    #[default]
+    Layered,
+    /// As of 2011: planes and samples, by ascending area.
+    Paper,
+}
+
+impl Request {
+    /// # Errors
+    /// Where the text is no request.
+    pub fn from_json(text: &str) -> Result<Self> {
+        serde_json::from_str(text).map_err(|error| InputError::new(error.to_string()).in_source("planning request"))
+    }
+
+    /// Plans the closing with that arm, from its ready pose and back.
+    ///
+    /// # Errors
+    /// Where there is nothing to close, or where the arm's base stands inside the box.
+    pub fn plan(self, arm: &Arm) -> Result<Answer> {
+        let mut problem = self.measured.into_problem()?;
+        let settings = &self.settings;
+        for flap in problem.flaps.iter_mut().filter(|flap| self.closed.contains(&flap.name)) {
+            flap.position_rad = settings.rest_rad;
+        }
+        let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
+        let guard = Surroundings::new(arm, &problem, scene);
+        guard.check_base()?;
+        let mut left_open: Vec<(String, Obstacle)> = Vec::new();
+        for attempt in 0.. {
+            let mut settings = settings.clone();
+            settings.search_margin_m *= f64::from(attempt.min(WIDER) + 1);
+            let left: Vec<&str> = left_open.iter().map(|(name, _)| name.as_str()).collect();
+            let closer = Closer {
+                arm,
+                guard: &guard,
+                problem: &problem,
+                settings: &settings,
+                method: self.method,
+                only: &self.only,
+                left_open: &left,
+            };
+            let mut answer = timed(&closer.plan(&arm.ready), arm, &problem, &settings);
+            let conflicts = answer.conflicts(arm, &guard, settings.check_s, settings.clearance_m);
+            if conflicts.is_empty() {
+                answer.tell_left_open(&left_open);
+                return Ok(answer);
+            }
+            if attempt >= WIDER {
+                left_open.extend(conflicts.into_iter().map(|conflict| (conflict.flap, conflict.obstacle)));
+                left_open.sort();
+                left_open.dedup_by(|a, b| a.0 == b.0);
+            }
+        }
+        unreachable!("every attempt leaves one more flap open, and without flaps there is no motion")
+    }
+}
+
+impl Request {
+    /// For each flap that is open, by name: can brute force close it by itself, all others as they are? Takes minutes.
+    ///
+    /// # Errors
+    /// As [`Request::plan`].
+    pub fn feasible(self, arm: &Arm) -> Result<Vec<(String, bool)>> {
+        let problem = self.measured.into_problem()?;
+        let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
+        let guard = Surroundings::new(arm, &problem, scene);
+        guard.check_base()?;
+        let angles_rad: Vec<f64> = problem.flaps.iter().map(|flap| flap.position_rad).collect();
+        let moment = Moment::resting(&angles_rad);
+        let asked = problem.flaps.iter().enumerate().filter(|(_, flap)| {
+            flap.standing == Standing::Seen
+                && flap.position_rad > self.settings.closed_rad
+                && (self.only.is_empty() || self.only.contains(&flap.name))
+        });
+        let answers = asked.map(|(number, flap)| {
+            let search = Exhaustive {
+                arm,
+                guard: &guard,
+                settings: &self.settings,
+                flap,
+                number,
+                thickness_m: problem.thickness_m,
+                moment: &moment,
+            };
+            (flap.name.clone(), search.can_close())
+        });
+        Ok(answers.collect())
+    }
+}
+
+impl SceneBox {
+    fn solid(&self) -> Solid {
+        let rotation = nalgebra::Matrix3::from_fn(|row, column| self.rotation[row][column]);
+        let pose = Rigid::new(rotation, Vec3::from(self.centre_m));
+        Solid::Box(OrientedBox::new(pose, Vec3::from(self.size_m) / 2.0))
+    }
+}

@@ -1,0 +1,105 @@
+use serde::Deserialize;
+
+/// What the planner takes for granted; every default of it is here and nowhere else. Metres, radians, seconds.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlanningSettings {
+    /// Kept to everything but the flap that is pushed.
+    pub clearance_m: f64,
+    /// By how much more is kept while searching, so that what lies between samples keeps the clearance too.
+    pub search_margin_m: f64,
+    /// A flap within this of 0 is closed.
+    pub closed_rad: f64,
+    /// How far a flap is pushed beyond closed, so that it springs back to closed; above -15 degrees, where it counts as pushed in.
+    pub overclose_rad: f64,
+    /// The same of a flap that comes to lie on others, or that carries a tuck. Below 0, short of closed: its edge may lie near the
+    /// hinge of one below, which would be pushed in by many times as much.
+    pub overclose_on_others_rad: f64,
+    /// Where a flap that was let go is taken to rest.
+    pub rest_rad: f64,
+    /// How far below a flap that is pushed onto others those are taken to give way.
+    pub under_rad: f64,
+    /// Between two layers of the search, at most.
+    pub layer_rad: f64,
+    /// Between two samples of a push, at most.
+    pub sample_rad: f64,
+    /// States kept in each layer: a first try, and wider ones where it fails.
+    pub beams: Vec<usize>,
+    /// Between contacts along and across a flap, and how many of them at most.
+    pub contact_step_m: f64,
+    pub most_contacts: [usize; 2],
+    /// Tool points keep this from the flap's lateral ends, reach this far beyond its free edge (short of it where below 0), and keep this share of its length from
+    /// the hinge.
+    pub contact_inset_m: f64,
+    pub contact_beyond_m: f64,
+    pub least_lever: f64,
+    /// The finger is planned this far off the face, so that it is not in the board between two samples.
+    pub touch_gap_m: f64,
+    /// How far the tool's axis may lean back over the flap's edge, as the sine.
+    pub most_lean: f64,
+    /// From the tip to where a hooked edge may lie on the finger, at the least.
+    pub least_hook_m: f64,
+    /// How far a joint may turn from one layer to the next, and from one sample to the next.
+    pub most_turn_rad: f64,
+    pub most_sample_turn_rad: f64,
+    /// The tool stands off a flap by this before it touches it, then leaves by up to this.
+    pub stand_off_m: f64,
+    pub withdraw_m: f64,
+    /// Between two samples of a straight line of the tool.
+    pub line_step_m: f64,
+    /// Between two checked postures of a motion of the joints: the widest turn of any joint.
+    pub joint_step_rad: f64,
+    /// Tries of the search for a way between two flaps, and the seed of its draws.
+    pub transit_tries: usize,
+    pub transit_seed: u64,
+    pub shortcuts: usize,
+    /// Shares of the joints' speeds and accelerations that are used in free space, and near or on a flap.
+    pub free_share: f64,
+    pub contact_share: f64,
+    /// How fast a flap is turned, and how fast the point of touch moves, at most.
+    pub hinge_rad_per_s: f64,
+    pub contact_m_per_s: f64,
+    /// Between two samples of the motion, and between two moments at which the whole of it is checked again.
+    pub period_s: f64,
+    pub check_s: f64,
+}
+
+impl Default for PlanningSettings {
+    fn default() -> Self {
+        Self {
+            clearance_m: 0.005,
+            search_margin_m: 0.0015,
+            closed_rad: 15f64.to_radians(),
+            overclose_rad: 9f64.to_radians(),
+            overclose_on_others_rad: -1f64.to_radians(),
+            rest_rad: 4f64.to_radians(),
+            under_rad: 4f64.to_radians(),
+            layer_rad: 8f64.to_radians(),
+            sample_rad: 1f64.to_radians(),
+            beams: vec![16, 80],
+            contact_step_m: 0.04,
+            most_contacts: [7, 5],
+            contact_inset_m: 0.012,
+            contact_beyond_m: -0.006,
+            least_lever: 0.35,
+            touch_gap_m: 0.0003,
+            most_lean: 0.6,
+            least_hook_m: 0.018,
+            most_turn_rad: 0.9,
+            most_sample_turn_rad: 0.25,
+            stand_off_m: 0.015,
+            withdraw_m: 0.10,
+            line_step_m: 0.005,
+            joint_step_rad: 0.05,
+            transit_tries: 4000,
+            transit_seed: 0x2011,
+            shortcuts: 60,
+            free_share: 0.8,
+            contact_share: 0.4,
+            hinge_rad_per_s: 1.0,
+            contact_m_per_s: 0.2,
+            period_s: 0.01,
+            check_s: 0.005,
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Where a finger that is moved along the push direction first touches a flap's outer face, edges included.
+
+use nalgebra::Matrix3;
+
+use super::flap::FlapFrame;
+use crate::geometry::Vec3;
+
+/// The closed fingers as one block in the tool's frame: `half_m` to either side in x and y, from the tool point back by
+/// `length_m` along -z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Finger {
+    pub half_m: [f64; 2],
+    pub length_m: f64,
+}
+
+/// A first touch.
+#[derive(Debug, Clone, Copy)]
+pub struct Touch {
+    /// The tool point's height over the flap's mid-board along `outward` (negative where it is beyond the board).
+    pub tool_outward_m: f64,
+    /// The point of touch on the outer face: along the hinge, away from it.
+    pub contact: [f64; 2],
+}
+
+impl Finger {
+    /// The eight corners relative to the tool point, tool axes as the columns of `rotation` told in the flap's frame.
+    fn corners(&self, rotation: &Matrix3<f64>) -> [Vec3; 8] {
+        std::array::from_fn(|k| {
+            let x = if k & 1 == 0 { -self.half_m[0] } else { self.half_m[0] };
+            let y = if k & 2 == 0 { -self.half_m[1] } else { self.half_m[1] };
+            let z = if k & 4 == 0 { 0.0 } else { -self.length_m };
+            rotation * Vec3::new(x, y, z)
+        })
+    }
+
+    /// The touch of a finger whose tool point is `at` (along, away) in the flap's plane, turned as `flap_from_tool`.
+    /// None where it passes the flap by.
+    ///
+    /// Eq. 84. What reaches furthest in the push direction of the finger inside the prism over the flap is a linear program in three
+    /// variables: it lies at a corner of the finger, where one of its edges passes an edge of the flap, or over a corner of the flap.
+    pub fn touch(
+        &self,
+        outline: &[[f64; 2]; 4],
+        half_board_m: f64,
+        at: [f64; 2],
+        flap_from_tool: &Matrix3<f64>,
+    ) -> Option<Touch> {
+        let corners = self.corners(flap_from_tool);
+        let mut lowest: Option<(f64, [f64; 2])> = None;
+        let mut consider = |w: f64, place: [f64; 2]| {
+            if lowest.is_none_or(|(best, _)| w < best) {
+                lowest = Some((w, place));
+            }
+        };
+        let place = |p: &Vec3| [at[0] + p.x, at[1] + p.y];
+        for corner in &corners {
+            if contains(outline, place(corner)) {
+                consider(corner.z, place(corner));
+            }
+        }
+        for a in 0..8usize {
+            for bit in [1, 2, 4] {
+                if a & bit == 0 {
+                    cross_edges(outline, &corners[a], &corners[a | bit], at, &mut consider);
+                }
+            }
+        }
+        for corner in outline {
+            let offset = [corner[0] - at[0], corner[1] - at[1]];
+            if let Some(w) = self.lowest_over(flap_from_tool, offset) {
+                consider(w, *corner);
+            }
+        }
+        lowest.map(|(w, contact)| Touch { tool_outward_m: half_board_m - w, contact })
+    }
+
+    /// The lowest point of the finger on the line along `outward` through `offset` from the tool point.
+    fn lowest_over(&self, flap_from_tool: &Matrix3<f64>, offset: [f64; 2]) -> Option<f64> {
+        let start = flap_from_tool.tr_mul(&Vec3::new(offset[0], offset[1], 0.0));
+        let direction = flap_from_tool.tr_mul(&Vec3::z());
+        let low = [-self.half_m[0], -self.half_m[1], -self.length_m];
+        let high = [self.half_m[0], self.half_m[1], 0.0];
+        let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
+        for k in 0..3 {
+            if direction[k].abs() < 1e-12 {
+                if start[k] < low[k] || start[k] > high[k] {
+                    return None;
+                }
+                continue;
+            }
+            let (p, q) = ((low[k] - start[k]) / direction[k], (high[k] - start[k]) / direction[k]);
+            enter = enter.max(p.min(q));
+            leave = leave.min(p.max(q));
+        }
+        (enter <= leave).then_some(enter)
+    }
+}
+
+/// Where the finger's edge from p to q passes over an edge of the flap.
+fn cross_edges(outline: &[[f64; 2]; 4], p: &Vec3, q: &Vec3, at: [f64; 2], consider: &mut impl FnMut(f64, [f64; 2])) {
+    let (px, py) = (at[0] + p.x, at[1] + p.y);
+    let (dx, dy) = (q.x - p.x, q.y - p.y);
+    for k in 0..4 {
+        let (a, b) = (outline[k], outline[(k + 1) % 4]);
+        let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
+        let cross = dx * ey - dy * ex;
+        if cross.abs() < 1e-15 {
+            continue;
+        }
+        let s = ((a[0] - px) * ey - (a[1] - py) * ex) / cross;
+        let t = ((a[0] - px) * dy - (a[1] - py) * dx) / cross;
+        if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
+            consider(p.z + s * (q.z - p.z), [a[0] + t * ex, a[1] + t * ey]);
+        }
+    }
+}
+
+/// Is a point inside a convex outline that goes round counter-clockwise?
+fn contains(outline: &[[f64; 2]; 4], p: [f64; 2]) -> bool {
+    (0..4).all(|k| {
+        let (a, b) = (outline[k], outline[(k + 1) % 4]);
+        (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) >= 0.0
+    })
+}
+
+/// A tool's rotation told in a flap's frame.
+pub fn flap_from_tool(frame: &FlapFrame, base_from_tool: &Matrix3<f64>) -> Matrix3<f64> {
+    Matrix3::from_columns(&[frame.along, frame.away, frame.outward]).tr_mul(base_from_tool)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+
+    use super::*;
+    use crate::geometry::SplitMix64;
+
+    const FINGER: Finger = Finger { half_m: [0.01, 0.01], length_m: 0.08 };
+    const OUTLINE: [[f64; 2]; 4] = [[0.0, 0.0], [0.2, 0.0], [0.18, 0.1], [0.03, 0.1]];
+
+    /// The lowest point over the outline of a finger filled with points.
+    fn lowest_of_points(at: [f64; 2], rotation: &Matrix3<f64>) -> Option<f64> {
+        let steps = 40;
+        let share = |k: usize| k as f64 / steps as f64;
+        let mut lowest: Option<f64> = None;
+        for i in 0..=steps {
+            for j in 0..=steps {
+                for k in 0..=2 * steps {
+                    let p = rotation
+                        * Vec3::new(
+                            0.02 * share(i) - 0.01,
+                            0.02 * share(j) - 0.01,
+                            -0.08 * k as f64 / (2 * steps) as f64,
+                        );
+                    if contains(&OUTLINE, [at[0] + p.x, at[1] + p.y]) {
+                        lowest = Some(lowest.map_or(p.z, |w: f64| w.min(p.z)));
+                    }
+                }
+            }
+        }
+        lowest
+    }
+
+    #[test]
+    fn touches_where_a_finger_filled_with_points_does() {
+        let mut rng = SplitMix64::new(84);
+        let mut touched = 0;
+        for _ in 0..60 {
+            let axis = Vec3::new(rng.unit() - 0.5, rng.unit() - 0.5, rng.unit() - 0.5);
+            let rotation = *Rotation3::new(axis.normalize() * (6.0 * rng.unit())).matrix();
+            let at = [0.24 * rng.unit() - 0.02, 0.14 * rng.unit() - 0.02];
+            let Some(touch) = FINGER.touch(&OUTLINE, 0.002, at, &rotation) else {
+                assert!(lowest_of_points(at, &rotation).is_none());
+                continue;
+            };
+            let Some(lowest) = lowest_of_points(at, &rotation) else { continue };
+            let exact = 0.002 - touch.tool_outward_m;
+            // Points lie at most 2 mm from one another: the exact optimum is no higher, and lower by little.
+            assert!(exact <= lowest + 1e-12 && lowest - exact < 0.0035, "{exact} {lowest}");
+            touched += 1;
+        }
+        assert!(touched > 40, "{touched}");
+    }
+
+    #[test]
+    fn a_finger_square_on_the_face_stands_on_its_tip() {
+        let down = *Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI).matrix();
+        let touch = FINGER.touch(&OUTLINE, 0.002, [0.1, 0.05], &down).unwrap();
+        assert!((touch.tool_outward_m - 0.002).abs() < 1e-12);
+    }
+}

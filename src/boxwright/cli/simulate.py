@@ -1,0 +1,89 @@
+"""`boxwright simulate`: a plan in physics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from boxwright.cli.options import JsonOption
+
+
+def simulate(
+    plan_dir: Annotated[
+        Path, typer.Argument(metavar="PLAN_DIR", help="What `boxwright plan` wrote: plan.json and model.json.")
+    ],
+    truth: Annotated[
+        Path | None,
+        typer.Option(metavar="NAME.truth.json", help="Close the true box; without it, the one that was inferred."),
+    ] = None,
+    crease: Annotated[
+        str | None, typer.Option(metavar="CLASS", help="Class of creases, as pre_broken, ordinary (default), stiff.")
+    ] = None,
+    crease_file: Annotated[
+        Path | None, typer.Option(metavar="FILE.toml", help="Your own classes of creases (docs/physics.md).")
+    ] = None,
+    mass_kg: Annotated[
+        float | None, typer.Option(min=0.0, help="Box and contents together; by default contents of 100 kg/m3.")
+    ] = None,
+    empty: Annotated[bool, typer.Option("--empty", help="Nothing is in the box.")] = False,
+    board_mm: Annotated[
+        float | None, typer.Option(min=0.1, help="Thickness of the board, before what truth or model tell.")
+    ] = None,
+    robot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="The plan's robot (.toml, .urdf), where it is not shipped.")
+    ] = None,
+    time_step_ms: Annotated[float, typer.Option(help="Physics' time step, 1 at most.")] = 1.0,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="DIR", help="Folder to write to; default: PLAN_DIR.")
+    ] = None,
+    picture: Annotated[
+        bool, typer.Option("--picture/--no-picture", help="Draw simulation.png, moments side by side.")
+    ] = True,
+    video: Annotated[bool, typer.Option("--video", help="Draw simulation.gif too; slow without a graphics card.")] = (
+        False
+    ),
+    as_json: JsonOption = False,
+) -> None:
+    """Let the arm follow a plan in physics, and see which flaps are closed and stay closed.
+
+    Writes [bold]simulation.json[/], [bold]simulation.png[/] and with --video [bold]simulation.gif[/]. Exit status 0
+    when every flap that was planned is closed in the end, 3 when one is not.
+
+    [bold]Examples[/]
+
+    boxwright simulate out/plan --truth set/frame.truth.json
+
+    boxwright simulate out/plan --crease stiff --empty --video
+    """
+    from boxwright.cli.simulate_report import NOT_CLOSED, all_held, draw, print_run
+    from boxwright.io.models import load_model
+    from boxwright.io.plans import load_plan
+    from boxwright.io.simulations import save_simulation
+    from boxwright.io.truth import load_truth
+    from boxwright.robots.catalogue import robot_file
+    from boxwright.simulation.physics import CREASE, Load, PhysicsSettings
+    from boxwright.simulation.physics import simulate as simulate_plan
+
+    step_s = time_step_ms / 1000.0
+    plan = load_plan(plan_dir / "plan.json")
+    run = simulate_plan(
+        plan,
+        load_model(plan_dir / "model.json"),
+        None if truth is None else load_truth(truth),
+        crease=crease or CREASE,
+        crease_file=crease_file,
+        robot=None if robot is None else robot_file(robot),
+        load=Load(empty=empty, mass_kg=mass_kg),
+        settings=PhysicsSettings(time_step_s=step_s),
+        thickness_m=None if board_mm is None else board_mm / 1000.0,
+        stills_per_s=(10.0 if video else 4.0) if picture or video else 0.0,
+    )
+    folder = output or plan_dir
+    folder.mkdir(parents=True, exist_ok=True)
+    save_simulation(run.simulation, folder / "simulation.json")
+    files = [folder / "simulation.json", *draw(run, folder, picture=picture, video=video)]
+    print_run(run.simulation, plan.order, files, as_json=as_json)
+    if not all_held(run.simulation, plan.order):
+        raise typer.Exit(NOT_CLOSED)

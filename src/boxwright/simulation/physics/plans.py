@@ -1,0 +1,80 @@
+"""A plan against the box that it was made for, or against the one that is really there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from os import PathLike
+
+import numpy as np
+from numpy.typing import NDArray
+
+from boxwright.simulation.physics.arm import Arm
+from boxwright.simulation.physics.boards import BoardBox, modelled_box, true_box
+from boxwright.simulation.physics.matching import matched
+from boxwright.simulation.physics.robot_file import load_robot
+from boxwright.simulation.physics.run import CREASE, Run, simulate_closing
+from boxwright.simulation.physics.session import Load
+from boxwright.simulation.physics.settings import PhysicsSettings
+from boxwright.types import Model, Plan, RobotFile, Truth
+
+Array = NDArray[np.float64]
+
+
+def simulate(
+    plan: Plan,
+    model: Model,
+    truth: Truth | None = None,
+    *,
+    crease: str = CREASE,
+    crease_file: str | PathLike[str] | None = None,
+    robot: RobotFile | str | PathLike[str] | None = None,
+    load: Load | None = None,
+    settings: PhysicsSettings | None = None,
+    thickness_m: float | None = None,
+    stills_per_s: float = 0.0,
+) -> Run:
+    """Follow a plan in physics, against the true box where a truth is given, else against the planned-on model.
+
+    The true box is the one that stands where the planned object was thought to stand, its flaps named as the model
+    names them. The frame's other boxes, true or inferred, stand where they are and do not move. `robot` is the
+    plan's, or its name or TOML file; `thickness_m` goes before what truth or model tell of the board.
+
+    Raises ValueError when plan, model and truth do not belong together, or a value cannot be used; OSError for files.
+    """
+    base_from_input = np.array(plan.base_from_input)
+    box, others = scene_boxes(plan, model, truth, base_from_input, thickness_m)
+    arm = Arm(robot if isinstance(robot, RobotFile) else load_robot(robot or plan.robot))
+    if arm.name != plan.robot:
+        raise ValueError(f"the plan is for robot {plan.robot!r}; the one given is {arm.name!r}")
+    names = tuple(joint.name for joint in arm.robot.joint)
+    if names != plan.joint_names:
+        raise ValueError(
+            f"the plan's joints are {', '.join(plan.joint_names)}; those of {arm.name}: {', '.join(names)}"
+        )
+    return simulate_closing(
+        box,
+        arm,
+        plan.segments,
+        crease,
+        kind="inferred" if truth is None else "true",
+        crease_file=crease_file,
+        settings=settings,
+        load=load,
+        others=others,
+        stills_per_s=stills_per_s,
+    )
+
+
+def scene_boxes(
+    plan: Plan, model: Model, truth: Truth | None, base_from_input: Array, thickness_m: float | None
+) -> tuple[BoardBox, Sequence[BoardBox]]:
+    """The box to close, and the others of the scene, in the robot's base frame; errors as `simulate`."""
+    if not 0 <= plan.object < len(model.objects):
+        raise ValueError(f"the plan is for object {plan.object}; the model has {len(model.objects)}, counted from 0")
+    modelled = modelled_box(model.objects[plan.object], model.up, base_from_input, thickness_m)
+    if truth is None:
+        rest = [found for k, found in enumerate(model.objects) if k != plan.object and found.pose is not None]
+        return modelled, [modelled_box(found, model.up, base_from_input, thickness_m) for found in rest]
+    true_boxes = [true_box(truth, k, base_from_input, thickness_m) for k in range(len(truth.boxes))]
+    index, box = matched(true_boxes, modelled)
+    return box, [other for k, other in enumerate(true_boxes) if k != index]

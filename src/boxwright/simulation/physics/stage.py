@@ -1,0 +1,85 @@
+"""A world in motion: steps it along courses, watches every step, keeps what a film needs."""
+
+from __future__ import annotations
+
+import msgspec
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from boxwright.simulation.physics.boards import BoardBox
+from boxwright.simulation.physics.commands import Course
+from boxwright.simulation.physics.layers import Layers
+from boxwright.simulation.physics.state import standing_state
+from boxwright.simulation.physics.watch import Watch
+from boxwright.simulation.physics.world import Tool, World
+
+Array = NDArray[np.float64]
+
+LAYERS_S = 0.01
+"""How often it is looked at which flaps have come down: none gets far in this time."""
+
+NOTHING: frozenset[int] = frozenset()
+
+
+class Film(msgspec.Struct, frozen=True, eq=False):
+    """What pictures are drawn from: each still's time (s), joint positions (nq,) of all that moves, and caption."""
+
+    times: list[float]
+    positions: list[Array]
+    captions: list[str]
+
+
+class Stage:
+    """Mutable: `data` is the state now, `watch` the worst until now, `film` a still every so often."""
+
+    def __init__(self, world: World, box: BoardBox, stills_per_s: float = 0.0) -> None:
+        self.world = world
+        self.data = standing_state(world)
+        self.watch = Watch(world)
+        self._layers = Layers(world, box, self.data)
+        self._layers_every = max(1, round(LAYERS_S / world.settings.time_step_s))
+        self.film = Film([], [], [])
+        self.caption = ""
+        self.max_joint_error_rad = 0.0
+        self._tool: Tool | None = world.start[0] if world.start else None
+        self._every = max(1, round(1.0 / (stills_per_s * world.settings.time_step_s))) if stills_per_s > 0 else 0
+        self._steps = 0
+        model = world.model
+        names = world.tool.joints if world.tool else ()
+        self._joints = np.array([model.joint(name).qposadr[0] for name in names], dtype=int)
+
+    def follow(
+        self, course: Course, opening_m: float = 0.0, allowed: frozenset[int] = NOTHING, flap: str | None = None
+    ) -> float:
+        """Steps to the course's end; the least position (rad) of a flap on the way, infinite where none is named.
+
+        `allowed` are the pairs that may touch on the way (`Watch.code_of`).
+        """
+        model, data, watch = self.world.model, self.data, self.watch
+        flap_at = None if flap is None else int(model.joint(self.world.box.joint_of[flap]).qposadr[0])
+        least_rad = np.inf
+        commands = None if self._tool is None else self._tool.commands(*course.rows(), opening_m)
+        followed = np.empty_like(course.positions)
+        for k in range(len(course.positions)):
+            if commands is not None:
+                data.ctrl[:] = commands[k]
+                followed[k] = data.qpos[self._joints]
+            if k % self._layers_every == 0:
+                self._layers.update(data)
+            mujoco.mj_step(model, data)
+            watch.note(data, allowed)
+            if flap_at is not None:
+                least_rad = min(least_rad, data.qpos[flap_at])
+            self._film()
+        if commands is not None:
+            errors = np.abs(followed - course.positions)
+            self.max_joint_error_rad = max(self.max_joint_error_rad, float(errors.max(initial=0.0)))
+        return float(least_rad)
+
+    def _film(self) -> None:
+        if self._every and self._steps % self._every == 0:
+            self.film.times.append(float(self.data.time))
+            self.film.positions.append(self.data.qpos.copy())
+            self.film.captions.append(self.caption)
+        self._steps += 1

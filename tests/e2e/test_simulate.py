@@ -1,0 +1,120 @@
+"""`boxwright simulate`: files, exit status, pictures, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jsonschema
+import msgspec
+import mujoco
+import numpy as np
+import pytest
+from PIL import Image
+
+from boxwright.io.models import save_model
+from boxwright.io.plans import save_plan
+from boxwright.io.simulations import load_simulation
+from boxwright.io.truth import save_truth
+from boxwright.simulation.physics import Arm, load_robot, true_box
+from boxwright.types import FlapOutcome, Plan, Truth
+from support.command import boxwright
+from support.finger import push_shut
+from support.repository import REPOSITORY
+from support.scripted_arm import ScriptedArm
+from support.true_boxes import carton, truth_of
+from support.true_models import model_of
+
+BASE_FROM_INPUT = np.array([[0.0, -1.0, 0.0, 0.6], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, -0.1], [0.0, 0.0, 0.0, 1.0]])
+
+
+def _turned_numbers(truth: Truth) -> Truth:
+    """The same box with every side counted on by one."""
+
+    def named(name: str | None) -> str | None:
+        return name if name in (None, "base") else f"{name[:-1]}{(int(name[-1]) + 1) % 4}"
+
+    parts = tuple(msgspec.structs.replace(p, name=named(p.name), parent=named(p.parent)) for p in truth.parts)
+    return msgspec.structs.replace(truth, parts=parts)
+
+
+@pytest.fixture(scope="module")
+def plan_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What a planner would write: a scripted arm pushes flap_1 a little past closed."""
+    folder = tmp_path_factory.mktemp("plan")
+    truth = truth_of(carton())
+    arm = Arm(load_robot("viper_s850"))
+    segments = ScriptedArm(arm).follow(push_shut(true_box(truth, 0, BASE_FROM_INPUT), "flap_1", -8.0, radius_m=0.011))
+    plan = Plan(
+        format="boxwright.plan",
+        version=1,
+        robot="viper_s850",
+        base_from_input=tuple(map(tuple, BASE_FROM_INPUT.tolist())),  # type: ignore[arg-type]
+        joint_names=tuple(joint.name for joint in arm.robot.joint),
+        order=("flap_1",),
+        flaps={"flap_1": FlapOutcome(status="planned", reason=None, seconds=0.0)},
+        segments=tuple(segments),
+        method="script",
+    )
+    save_plan(plan, folder / "plan.json")
+    save_model(model_of(truth), folder / "model.json")
+    save_truth(truth, folder / "same.truth.json")
+    save_truth(_turned_numbers(truth), folder / "turned.truth.json")
+    return folder
+
+
+def test_a_plan_is_followed_and_told(plan_dir: Path, tmp_path: Path) -> None:
+    answer = boxwright("simulate", plan_dir, "-o", tmp_path, "--video", "--truth", plan_dir / "turned.truth.json")
+    assert answer.status == 0, answer
+    assert "flap_1" in answer.out
+    found = load_simulation(tmp_path / "simulation.json")
+    assert found.box == "true"
+    assert found.flaps["flap_1"].held
+    assert found.failure is None
+    assert not found.unwanted
+    schema = json.loads((REPOSITORY / "docs/schemas/simulation.schema.json").read_text(encoding="utf-8"))
+    jsonschema.validate(json.loads((tmp_path / "simulation.json").read_text(encoding="utf-8")), schema)
+    with Image.open(tmp_path / "simulation.png") as strip, Image.open(tmp_path / "simulation.gif") as film:
+        assert strip.size[0] == 1600
+        assert np.asarray(strip.convert("RGB")).std() > 20
+        assert film.n_frames > 40  # type: ignore[attr-defined]
+
+
+def test_without_a_truth_the_inferred_box_is_closed_and_twice_is_the_same(plan_dir: Path, tmp_path: Path) -> None:
+    runs = []
+    for name in ("a", "b"):
+        answer = boxwright("simulate", plan_dir, "-o", tmp_path / name, "--no-picture", "--json")
+        assert answer.status == 0, answer
+        assert json.loads(answer.out)["box"] == "inferred"
+        runs.append(msgspec.structs.replace(load_simulation(tmp_path / name / "simulation.json"), seconds=0.0))
+        assert sorted(path.name for path in (tmp_path / name).iterdir()) == ["simulation.json"]
+    assert runs[0] == runs[1]
+
+
+def test_a_flap_that_springs_open_is_status_3(plan_dir: Path, tmp_path: Path) -> None:
+    answer = boxwright("simulate", plan_dir, "-o", tmp_path, "--no-picture", "--crease", "stiff")
+    assert answer.status == 3, answer
+    assert not load_simulation(tmp_path / "simulation.json").flaps["flap_1"].held
+
+
+def test_what_does_not_fit_is_refused_in_one_line(plan_dir: Path, tmp_path: Path) -> None:
+    far = msgspec.structs.replace(truth_of(carton(), x_m=3.0), name="far")
+    save_truth(far, tmp_path / "far.truth.json")
+    cases = (
+        (["--crease", "soft"], "must be one of pre_broken, ordinary, stiff"),
+        (["--time-step-ms", "2"], "0.001 or less"),
+        (["--truth", str(tmp_path / "far.truth.json")], "no true box is within"),
+    )
+    for options, words in cases:
+        answer = boxwright("simulate", plan_dir, "-o", tmp_path / "out", "--no-picture", *options)
+        assert answer.status == 1, answer
+        (line,) = answer.err.splitlines()
+        assert words in line
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_robot_is_written_as_mjcf(tmp_path: Path) -> None:
+    path = tmp_path / "panda.xml"
+    assert boxwright("robots", "franka_panda", "--mjcf", path).status == 0
+    model = mujoco.MjModel.from_xml_path(str(path))
+    assert model.nu == 9
