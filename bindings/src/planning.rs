@@ -24,6 +24,9 @@ fn feasible_flaps(py: Python<'_>, robot: &str, request: &str) -> PyResult<Vec<(S
     py.detach(|| Request::from_json(request)?.feasible(&Arm::from_toml(robot)?)).map_err(to_python)
 }
 
+/// Row by row.
+type Rows = Vec<Vec<f64>>;
+
 /// Times from rest to rest along postures (N, axes): times (M,), positions and velocities (M, axes), rows one after the other.
 #[pyfunction]
 fn time_way(
@@ -31,7 +34,7 @@ fn time_way(
     speeds: Vec<f64>,
     accelerations: Vec<f64>,
     period_s: f64,
-) -> PyResult<(Vec<f64>, Vec<Vec<f64>>, Vec<Vec<f64>>)> {
+) -> PyResult<(Vec<f64>, Rows, Rows)> {
     let rows = way.as_array();
     if rows.ncols() != speeds.len() || speeds.len() != accelerations.len() || rows.nrows() < 2 {
         return Err(PyValueError::new_err(

@@ -183,7 +183,7 @@ class Answer:
     """What was understood of a cloud of N points."""
 
     def features_json(self) -> list[str]:
-        """What each object and each of its parts was judged by: {"box": {name: value}, "parts": {part: {..}}}."""
+        """What each object and its parts were judged by: {"box": {name: value}, "parts": {part: {name: value}}}."""
 
     def objects_json(self) -> list[str]:
         """The objects as JSON text, best first, keys as in docs/formats.md."""

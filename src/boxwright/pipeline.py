@@ -25,10 +25,10 @@ from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, 
 from boxwright.types import Cloud, KnownSize
 from boxwright.types.model import Model, Object, Seconds
 
-METHODS = ("paper", "exact", "fitted")
+METHODS = ("fitted", "exact", "paper")
 """The ways through that are built."""
 
-DEFAULT_METHOD = "paper"
+DEFAULT_METHOD = "fitted"
 
 # Made once, at import: threads that make their first decoder of a type together have crashed.
 _OBJECT = msgspec.json.Decoder(Object)
@@ -77,9 +77,10 @@ def infer(
 ) -> Inferred:
     """Infers the articulated objects of a cloud.
 
-    `method` "paper" is the pipeline of 2011; "exact" finds planes on the image grid, proves each object's assignment
-    best and tells how probable it and its parts are (docs/maths.md, "Exact inference"); "fitted" does so and fits each
-    object's body to its readings ("The fitted body" there). `templates` compete for the segments: shipped names or
+    `method` "fitted" proposes open boxes from the planes of the image grid, holds them against the depth image and fits
+    each as one body (docs/maths.md, "Whole boxes"); a cloud without image or viewpoint goes by exact assignments there.
+    "exact" finds planes on the image grid, proves each object's assignment best and tells how probable it and its parts
+    are ("Exact inference"); "paper" is the pipeline of 2011. `templates` compete for the segments: shipped names or
     paths of `.toml` files, by default `TEMPLATES_OF_METHOD`; `weights` names one file for a single template (the
     method's shipped weights otherwise). `up` is the direction away from the support, in the cloud's frame, where it is
     known. `roi` leaves out all points beyond the bounds. `planes` names the front end that finds the planes, one of

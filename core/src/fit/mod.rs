@@ -33,12 +33,11 @@ pub use settings::FitSettings;
 pub use size_warnings::size_warnings;
 
 pub(crate) use answer::fill;
-pub(crate) use body::{edge_place, Parameters};
+pub(crate) use body::Parameters;
 pub(crate) use forward::flap_end;
 pub(crate) use known_size::{best_match, best_match_within, share_of_score, with_known_size};
 pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
-pub(crate) use panel::Panel;
 pub(crate) use priors::priors;
 pub(crate) use problem::Problem;
 pub(crate) use readings::{PartEnds, PartReadings, PartSegment};

@@ -9,6 +9,9 @@ use crate::fit::{fill, lean_name, wall_lean, FitSettings, KnownSize, Role, Solut
 use crate::free_space::PartState;
 use crate::model::{Body, Template};
 
+/// Parts by their numbers in the template, with the indices of their readings.
+pub type PartReadings = Vec<(usize, Vec<u32>)>;
+
 /// A box as `model.json` tells it by a template, of that probability, and the readings of each of its parts; `None` where the template's body is no open box.
 pub fn answer(
     found: &FoundBox,
@@ -18,7 +21,7 @@ pub fn answer(
     sizes: &[KnownSize],
     settings: &FitSettings,
     judgement: Option<&Judgement>,
-) -> Option<(ObjectAnswer, Vec<(usize, Vec<u32>)>)> {
+) -> Option<(ObjectAnswer, PartReadings)> {
     let Body::OpenBox(box_roles) = &template.body else { return None };
     let roles = Role::of_parts(box_roles);
     let mut seen = vec![false; template.parts.len()];

@@ -111,11 +111,6 @@ impl<'a> Sheet<'a> {
         (self.body.to_input(&point), (self.body.input_from_object.rotation * normal).normalize())
     }
 
-    /// Unit vector along the hinge, in the body's world.
-    pub fn along(&self) -> Vec3 {
-        self.body.input_from_object.rotation * self.rim.directions().0
-    }
-
     pub fn width_m(&self) -> f64 {
         self.width_m
     }

@@ -108,6 +108,7 @@ fn a_tote_has_no_flaps_to_tell() {
         score: 1.0,
         probability: None,
         inference: crate::body::InferenceAnswer::new(0.0, 0, None),
+        sums: None,
         score_terms: Vec::new(),
         dimensions: None,
         outer_dimensions: None,
@@ -119,7 +120,6 @@ fn a_tote_has_no_flaps_to_tell() {
             .into(),
         parts: cake.parts.iter().map(|part| crate::body::PartAnswer::unseen(&part.name)).collect(),
         joints: Vec::new(),
-        sums: None,
     };
     let (told, numbers) = recast(&object, &cake, &tote).unwrap();
     assert_eq!(told.template, "tote");

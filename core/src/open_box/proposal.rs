@@ -164,12 +164,8 @@ fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
     let bottom = if up.z > 0.9999 { 0.0 } else { lowest };
     let count = walls + flaps;
     let is_enough = bottom.is_finite() && (walls >= 2 || count >= 3);
-    is_enough.then(|| {
-        (
-            shown + OF_FLAPS * by_flaps,
-            Proposal { axes: [x, y], up, spans, heights: [bottom, bottom], on_flaps: by_flaps },
-        )
-    })
+    let plan = Proposal { axes: [x, y], up, spans, heights: [bottom, bottom], on_flaps: by_flaps };
+    is_enough.then_some((shown + OF_FLAPS * by_flaps, plan))
 }
 
 /// The plan with each height at which its rim may be: where its walls end, where tilted panels meet its walls.

@@ -61,7 +61,7 @@ impl Shape {
     /// Aligned with `SHAPE_FEATURES`. Lengths of flaps are shares of the way across the opening.
     pub fn features(&self) -> [f64; SHAPE_FEATURES.len()] {
         let [length, width, height] = self.dimensions_m;
-        let across = |k: usize| if k % 2 == 0 { width } else { length };
+        let across = |k: usize| [width, length][k % 2];
         let shares = (0..4).filter_map(|k| Some(self.flaps_m[k]? / across(k)));
         let count = shares.clone().count();
         let longest = shares.clone().fold(0.0, f64::max);

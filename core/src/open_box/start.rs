@@ -3,7 +3,6 @@ use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 use super::proposal::Proposal;
 use super::shells::middle;
 use crate::fit::{layout, FittedBody, Parameters};
-use crate::geometry::Vec3;
 
 /// What a fit starts from where nothing is known, metres.
 const BOARD_M: f64 = 0.004;

@@ -88,8 +88,8 @@ MethodOption = Annotated[
         "--method",
         callback=_known_method,
         metavar="NAME",
-        help="paper: as of 2011 (default). exact: planes of the image grid, exact search, probabilities. "
-        "fitted: exact, with bodies fitted to the readings.",
+        help="fitted (default): boxes held against the depth image and fitted to it as one body. "
+        "exact: planes of the image grid, exact search, probabilities. paper: as of 2011.",
         rich_help_panel=MODEL,
     ),
 ]

@@ -84,9 +84,9 @@ def train(
     from boxwright.learning import train as learn
     from boxwright.models import load_template, load_weights, shipped_for
     from boxwright.parallel import processors
-    from boxwright.pipeline import DEFAULT_METHOD, PLANES_OF_METHOD
+    from boxwright.pipeline import PLANES_OF_METHOD
 
-    method = method or DEFAULT_METHOD
+    method = method or ("fitted" if template is None else "paper")
     if method == "fitted":
         learn_judgement_of(folders, output, jobs, as_json)
         return

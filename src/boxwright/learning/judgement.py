@@ -115,7 +115,8 @@ def examples_of(entry: SetEntry, model: _core.ObjectModel) -> Examples:
     labels = PointLabels(object=answer.object_labels, part=answer.part_labels)
     boxes = score_answer(frame, Answer(objects=objects, labels=labels)).boxes
     of_object = {box.object: box for box in boxes if box.object is not None}
-    asked, parts = [], []
+    asked: list[tuple[dict[str, float], bool]] = []
+    parts: list[tuple[dict[str, float], bool]] = []
     for k, told in enumerate(features):
         box = of_object.get(k)
         if box is None:

@@ -1,0 +1,114 @@
+//! A made-up box of exact panels, seen by an exact camera: it is found, measured, and found alike each time.
+
+use boxwright_core::cloud::CloudView;
+use boxwright_core::geometry::Vec3;
+use boxwright_core::inference::{ObjectModel, SearchSettings};
+use boxwright_core::model::{Template, Weights};
+use boxwright_core::open_box::Kinds;
+use boxwright_core::perception::PerceptionSettings;
+use boxwright_core::pipeline::{infer, Answer, Bodies};
+
+const WIDTH: usize = 480;
+const HEIGHT: usize = 360;
+const FOCAL_PX: f64 = 430.0;
+const EYE: Vec3 = Vec3::new(0.9, -0.75, 0.95);
+const LENGTH_M: f64 = 0.36;
+const BREADTH_M: f64 = 0.26;
+const TALL_M: f64 = 0.2;
+
+/// Four corners going round.
+type Panel = [Vec3; 4];
+
+/// Walls, base and flaps at their positions, with the floor; a box without thickness.
+fn scene(flap_positions_deg: [f64; 4]) -> Vec<Panel> {
+    let (x, y, z) = (LENGTH_M / 2.0, BREADTH_M / 2.0, TALL_M);
+    let at = |sx: f64, sy: f64, z: f64| Vec3::new(sx * x, sy * y, z);
+    let foot = [at(-1.0, -1.0, 0.004), at(1.0, -1.0, 0.004), at(1.0, 1.0, 0.004), at(-1.0, 1.0, 0.004)];
+    let floor = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
+    let mut panels = vec![floor, foot];
+    for k in 0..4 {
+        let lift = Vec3::z() * (z - 0.004);
+        let (start, end) = (foot[k] + lift, foot[(k + 1) % 4] + lift);
+        panels.push([foot[k], foot[(k + 1) % 4], end, start]);
+        let along = (end - start).normalize();
+        let (sin, cos) = flap_positions_deg[k].to_radians().sin_cos();
+        let out = (Vec3::z().cross(&along) * cos + Vec3::z() * sin) * 0.12;
+        panels.push([
+            start + along * 0.004,
+            end - along * 0.004,
+            end - along * 0.004 + out,
+            start + along * 0.004 + out,
+        ]);
+    }
+    panels
+}
+
+fn hit(panel: &Panel, ray: &Vec3) -> Option<f64> {
+    let normal = (panel[1] - panel[0]).cross(&(panel[3] - panel[0]));
+    let range = normal.dot(&(panel[0] - EYE)) / normal.dot(ray);
+    let point = EYE + ray * range;
+    let inside = (0..4).all(|k| (panel[(k + 1) % 4] - panel[k]).cross(&(point - panel[k])).dot(&normal) >= 0.0);
+    (range > 0.0 && inside).then_some(range)
+}
+
+/// The camera's frame: x right, y down, z forward.
+fn camera_axes() -> [Vec3; 3] {
+    let forward = (Vec3::new(0.0, 0.0, 0.1) - EYE).normalize();
+    let right = forward.cross(&Vec3::z()).normalize();
+    [right, forward.cross(&right), forward]
+}
+
+fn look(panels: &[Panel]) -> Vec<[f32; 3]> {
+    let [right, down, forward] = camera_axes();
+    let point = |pixel: usize| {
+        let (u, v) = ((pixel % WIDTH) as f64 - 239.5, (pixel / WIDTH) as f64 - 179.5);
+        let ray = right * (u / FOCAL_PX) + down * (v / FOCAL_PX) + forward;
+        let range = panels.iter().filter_map(|panel| hit(panel, &ray)).fold(f64::INFINITY, f64::min);
+        let z = if range.is_finite() { range } else { f64::NAN };
+        [(u / FOCAL_PX * z) as f32, (v / FOCAL_PX * z) as f32, z as f32]
+    };
+    (0..WIDTH * HEIGHT).map(point).collect()
+}
+
+fn understood(points: &[[f32; 3]]) -> Answer {
+    let cloud = CloudView { points, width: WIDTH, height: HEIGHT, viewpoint: Some(Vec3::zeros()) };
+    let scene = boxwright_core::perception::perceive(&cloud, &PerceptionSettings::default()).unwrap();
+    assert!(scene.support.is_some(), "the floor was overlooked");
+    let template = Template::from_toml(include_str!("../../src/boxwright/models/templates/exact/carton.toml")).unwrap();
+    let weights = Weights::from_json(&common::unit_weights(&template, 0.0), &template).unwrap();
+    let search = SearchSettings::default();
+    let model = ObjectModel::new(template, weights, &search.staged);
+    let bodies = Bodies::Fitted(&cloud, None, &[]);
+    infer(&cloud, &PerceptionSettings::default(), &[model], &search, bodies, &Kinds::default()).unwrap().1
+}
+
+mod common;
+
+#[test]
+fn a_box_of_exact_panels_is_measured() {
+    let mut measured = 0;
+    for positions in [[150.0, 110.0, 60.0, 200.0], [180.0, 90.0, 170.0, 35.0]] {
+        let answer = understood(&look(&scene(positions)));
+        let object = answer.objects.first().expect("no box");
+        let [length, width, height] = object.dimensions.unwrap();
+        for (value, truth) in [(length, LENGTH_M), (width, BREADTH_M), (height, TALL_M)] {
+            assert!((value - truth).abs() < 0.008, "{value} for {truth}");
+        }
+        for joint in object.joints.iter().filter(|joint| joint.child.starts_with("flap")) {
+            let error =
+                positions.iter().map(|deg| (joint.position - deg.to_radians()).abs()).fold(f64::INFINITY, f64::min);
+            assert!(error < 0.04, "{} at {} rad", joint.child, joint.position);
+            measured += 1;
+        }
+    }
+    assert_eq!(measured, 8);
+}
+
+#[test]
+fn the_same_readings_give_the_same_box() {
+    let points = look(&scene([150.0, 110.0, 60.0, 200.0]));
+    let (one, other) = (understood(&points), understood(&points));
+    assert_eq!(one.objects, other.objects);
+    assert_eq!(one.part_of_point, other.part_of_point);
+    assert!(one.part_of_point.iter().any(|part| *part >= 0));
+}
