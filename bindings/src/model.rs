@@ -1,4 +1,5 @@
 use boxwright_core::cloud::CloudView;
+use boxwright_core::fit::KnownSize;
 use boxwright_core::geometry::Vec3;
 use boxwright_core::inference::SearchSettings;
 use boxwright_core::model;
@@ -177,13 +178,23 @@ pub fn search_settings(overrides: Option<&Bound<'_, PyDict>>) -> PyResult<Search
     SearchSettings::with_overrides(named("search", overrides)?).map_err(to_python)
 }
 
+fn known_sizes(sizes: &[(String, [f64; 3])]) -> PyResult<Vec<KnownSize>> {
+    sizes.iter().map(|(name, outer_m)| KnownSize::new(name, *outer_m).map_err(to_python)).collect()
+}
+
+/// Refuses outer sizes that no box has, (name, three lengths in metres) each.
+#[pyfunction]
+fn check_sizes(sizes: Vec<(String, [f64; 3])>) -> PyResult<()> {
+    known_sizes(&sizes).map(|_| ())
+}
+
 fn model_list(models: &[PyRef<'_, ObjectModel>]) -> Vec<inference::ObjectModel> {
     models.iter().map(|m| m.model.clone()).collect()
 }
 
 /// From a cloud to its objects in one call.
 #[pyfunction]
-#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, kinds=None, judgement=None))]
+#[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, kinds=None, judgement=None, sizes=Vec::new()))]
 #[allow(clippy::too_many_arguments)]
 fn infer(
     py: Python<'_>,
@@ -198,6 +209,7 @@ fn infer(
     fitted: bool,
     kinds: Option<&Kinds>,
     judgement: Option<&str>,
+    sizes: Vec<(String, [f64; 3])>,
 ) -> PyResult<(Perception, Answer)> {
     let points = rows_of_three(&points, width, height)?;
     let settings = PerceptionSettings::with_overrides(named("perception", perception)?).map_err(to_python)?;
@@ -206,7 +218,8 @@ fn infer(
     let models = model_list(&models);
     let cloud = CloudView { points, width, height, viewpoint: viewpoint.map(Vec3::from) };
     let judgement = judgement.map(Judgement::from_json).transpose().map_err(to_python)?;
-    let bodies = if fitted { Bodies::Fitted(&cloud, judgement.as_ref()) } else { Bodies::Rectangles };
+    let sizes = known_sizes(&sizes)?;
+    let bodies = if fitted { Bodies::Fitted(&cloud, judgement.as_ref(), &sizes) } else { Bodies::Rectangles };
     let kinds = kinds.map_or_else(open_box::Kinds::default, |told| told.kinds.clone());
     let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies, &kinds));
     let (scene, answer) = inferred.map_err(to_python)?;
@@ -264,7 +277,7 @@ fn describe(
         }
         found.push((set.clone(), inference::FoundObject::of_assignment(&model.model, &set, assignment)));
     }
-    let bodies = if fitted { Bodies::Fitted(&cloud, None) } else { Bodies::Rectangles };
+    let bodies = if fitted { Bodies::Fitted(&cloud, None, &[]) } else { Bodies::Rectangles };
     let models = std::slice::from_ref(&model.model);
     let answer = py.detach(|| pipeline::describe(scene, points.len(), models, &found, bodies));
     Ok(Answer { answer })
@@ -278,6 +291,7 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<Kinds>()?;
     m.add("SHAPE_FEATURES", SHAPE_FEATURES.to_vec())?;
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
+    m.add_function(wrap_pyfunction!(check_sizes, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
     m.add_function(wrap_pyfunction!(describe, m)?)?;
     m.add_function(wrap_pyfunction!(understand, m)?)

@@ -12,7 +12,7 @@ use fitted::fitted_boxes;
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
 use crate::error::Result;
-use crate::fit::{fit_object, FitSettings};
+use crate::fit::{fit_object, size_warnings, FitSettings, KnownSize};
 use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
@@ -26,8 +26,9 @@ use crate::perception::{perceive, PerceptionSettings, Scene};
 pub enum Bodies<'a> {
     /// Read off the segments' rectangles, as the paper's method does.
     Rectangles,
-    /// Fitted to the readings of this cloud; what speaks for a box is weighed as the judgement says, if there is one.
-    Fitted(&'a CloudView<'a>, Option<&'a Judgement>),
+    /// Fitted to the readings of this cloud; what speaks for a box is weighed as the judgement says, if there is one, and boxes
+    /// that have one of these sizes are of it.
+    Fitted(&'a CloudView<'a>, Option<&'a Judgement>, &'a [KnownSize]),
 }
 
 const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
@@ -73,9 +74,10 @@ pub fn infer(
     kinds: &Kinds,
 ) -> Result<(Scene, Answer)> {
     let scene = perceive(cloud, perception)?;
-    if let Bodies::Fitted(_, judgement) = bodies {
+    if let Bodies::Fitted(_, judgement, sizes) = bodies {
         let readings = Readings::new(cloud, perception);
-        if let Some(answer) = whole_boxes(cloud, &scene, &readings, models, kinds, judgement) {
+        if let Some(mut answer) = whole_boxes(cloud, &scene, &readings, models, kinds, judgement, sizes) {
+            answer.warnings.extend(size_warnings(&answer.objects, sizes));
             return Ok((scene, answer));
         }
     }
@@ -83,6 +85,9 @@ pub fn infer(
         Bodies::Fitted(..) => fitted_boxes(&scene, cloud.points.len(), models, search, bodies, kinds)?,
         Bodies::Rectangles => understand(&scene, cloud.points.len(), models, search, bodies)?,
     };
+    if let Bodies::Fitted(_, _, sizes) = bodies {
+        answer.warnings.extend(size_warnings(&answer.objects, sizes));
+    }
     if search.search == SearchMethod::Exact {
         let start = Instant::now();
         let readings = Readings::new(cloud, perception);
@@ -101,13 +106,14 @@ fn whole_boxes(
     models: &[ObjectModel],
     kinds: &Kinds,
     judgement: Option<&Judgement>,
+    sizes: &[KnownSize],
 ) -> Option<Answer> {
     let start = Instant::now();
     let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
     open_boxes(&templates).next()?;
     let settings = FitSettings::default();
     let sight = open_box::Sight::new(cloud, readings, scene)?;
-    let found = open_box::find(&sight, scene, &settings);
+    let found = open_box::find(&sight, scene, sizes, &settings);
     let mut answer = Answer {
         objects: Vec::new(),
         object_of_point: vec![-1; cloud.points.len()],
@@ -121,10 +127,8 @@ fn whole_boxes(
     for one in &found {
         let shape = Shape::of_found(one);
         let Some((number, probability)) = kinds.choose(&shape, &templates) else { continue };
-        let Some((object, parts)) = open_box::answer(one, templates[number], probability, &sight, &settings, judgement)
-        else {
-            continue;
-        };
+        let told = open_box::answer(one, templates[number], probability, &sight, sizes, &settings, judgement);
+        let Some((object, parts)) = told else { continue };
         if object.probability.is_some_and(|p| p < 0.5) {
             continue;
         }
@@ -229,9 +233,10 @@ pub fn describe(
         let name = format!("object {} ({})", answer.objects.len(), template.name);
         if built.pose.is_none() && template.body != Body::Free {
             answer.warnings.push(format!("{name}: {NO_POSE}"));
-        } else if let (Bodies::Fitted(cloud, _), Body::OpenBox(_)) = (bodies, &template.body) {
+        } else if let (Bodies::Fitted(cloud, _, sizes), Body::OpenBox(_)) = (bodies, &template.body) {
             let start = Instant::now();
-            match fit_object(&built, template, scene, set, &assignment, cloud, &FitSettings::default()) {
+            let (of, settings) = ((set, &assignment), FitSettings::default());
+            match fit_object(&built, template, scene, of, cloud, sizes, &settings) {
                 Ok(fitted) => (built, assignment) = fitted,
                 Err(reason) => {
                     answer.warnings.push(format!("{name}: its body is that of its rectangles, not fitted: {reason}"))

@@ -78,7 +78,7 @@ fn understood(points: &[[f32; 3]]) -> Answer {
     let weights = Weights::from_json(&common::unit_weights(&template, 0.0), &template).unwrap();
     let search = SearchSettings::default();
     let model = ObjectModel::new(template, weights, &search.staged);
-    let bodies = Bodies::Fitted(&cloud, None);
+    let bodies = Bodies::Fitted(&cloud, None, &[]);
     infer(&cloud, &PerceptionSettings::default(), &[model], &search, bodies, &Kinds::default()).unwrap().1
 }
 

@@ -11,6 +11,7 @@ y down, z forward). Names are loaded when they are first used.
 - `Cloud`: points (N, 3) float32, metres; pixel (u, v) of an organized one is point v * width + u.
 - `read_cloud(path, ...) -> Cloud`: PCD, PLY, NPY, or a depth PNG with its intrinsics.
 - `infer(cloud, ...) -> Inferred`: the model, and the object and part of each point, (N,) int16, -1 for none.
+- `KnownSize`, `read_sizes(path)`: outer sizes of boxes, metres; `infer(cloud, method="fitted", sizes=...)` uses them.
 - `segment(cloud, ...) -> Segmented`: the cloud's planar segments without meaning, as a record and as perceived.
 - `Model`: panels (4 corners, metres), hinges (origin, axis, position in radians: 0 closed, growing as a flap opens).
 - `load_model(path) -> Model`: a model.json.
@@ -29,18 +30,20 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from boxwright.io.clouds import read_cloud
     from boxwright.io.models import load_model
+    from boxwright.io.sizes import read_sizes
     from boxwright.kinematics import save_mjcf, save_sdf, save_urdf
     from boxwright.pipeline import infer
     from boxwright.planning import plan_closing
     from boxwright.scoring import evaluate
     from boxwright.segmentation import segment
     from boxwright.simulation.physics import simulate
-    from boxwright.types import Cloud, Model
+    from boxwright.types import Cloud, KnownSize, Model
 
 __version__ = "0.1.0"
 
 __all__ = [
     "Cloud",
+    "KnownSize",
     "Model",
     "__version__",
     "evaluate",
@@ -48,6 +51,7 @@ __all__ = [
     "load_model",
     "plan_closing",
     "read_cloud",
+    "read_sizes",
     "save_mjcf",
     "save_sdf",
     "save_urdf",
@@ -57,12 +61,14 @@ __all__ = [
 
 _HOMES = {
     "Cloud": "boxwright.types",
+    "KnownSize": "boxwright.types",
     "Model": "boxwright.types",
     "evaluate": "boxwright.scoring",
     "infer": "boxwright.pipeline",
     "load_model": "boxwright.io.models",
     "plan_closing": "boxwright.planning",
     "read_cloud": "boxwright.io.clouds",
+    "read_sizes": "boxwright.io.sizes",
     "save_mjcf": "boxwright.kinematics",
     "save_sdf": "boxwright.kinematics",
     "save_urdf": "boxwright.kinematics",

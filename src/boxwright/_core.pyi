@@ -224,6 +224,9 @@ class Kinds:
 def check_search(**search: float | str) -> None:
     """Refuses settings of the search that do not exist or do not fit, by name: ValueError."""
 
+def check_sizes(sizes: list[tuple[str, tuple[float, float, float]]]) -> None:
+    """Refuses outer sizes that no box has, (name, three lengths in metres) each: ValueError."""
+
 def infer(
     points: NDArray[np.float32],
     width: int,
@@ -236,12 +239,12 @@ def infer(
     fitted: bool = False,
     kinds: Kinds | None = None,
     judgement: str | None = None,
+    sizes: list[tuple[str, tuple[float, float, float]]] = ...,
 ) -> tuple[Perception, Answer]:
     """From a cloud to its objects in one call, bodies fitted or of rectangles; `kinds` tell fitted boxes' templates.
 
-    `judgement` is the text of a judgement file; without one every fitted box is told.
-
-    Raises ValueError where the cloud cannot be used, with the mend.
+    `judgement` is the text of a judgement file; without one every fitted box is told. `sizes` are outer sizes that
+    fitted boxes may have, as of `check_sizes`. Raises ValueError where the cloud cannot be used, with the mend.
     """
 
 def describe(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from boxwright.models import (
 )
 from boxwright.perception import chosen
 from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
-from boxwright.types import Cloud
+from boxwright.types import Cloud, KnownSize
 from boxwright.types.model import Model, Object, Seconds
 
 METHODS = ("fitted", "exact", "paper")
@@ -71,6 +72,7 @@ def infer(
     planes: str | None = None,
     search: dict[str, float | str] | None = None,
     kinds: _core.Kinds | None = None,
+    sizes: Sequence[KnownSize] = (),
     read_seconds: float = 0.0,
 ) -> Inferred:
     """Infers the articulated objects of a cloud.
@@ -87,6 +89,9 @@ def infer(
     tells its probability (docs/maths.md, "Exact inference"); "staged" is the paper's. `kinds` replaces the shipped
     weights by which the method "fitted" tells a box's template (eq. 89).
 
+    `sizes` are outer sizes that boxes may have ("fitted" alone): a box that has one is taken to have it exactly, and of
+    rival boxes those that have one win; `warnings` tell of boxes that have none, and when no box in view has any.
+
     Raises ValueError where a value does not fit or the cloud cannot be used as it is (units, frame, up), with the mend.
     """
     if method not in METHODS:
@@ -94,6 +99,8 @@ def infer(
     templates = TEMPLATES_OF_METHOD[method] if templates is None else templates
     if weights is not None and len(templates) != 1:
         raise ValueError("weights fit one template; name that one alone")
+    if sizes and method != "fitted":
+        raise ValueError(f"method {method!r} knows no sizes; give them to method 'fitted'")
     planes = planes or PLANES_OF_METHOD[method]
     settings = SEARCH_OF_METHOD[method] | (search or {})
     shipped = shipped_for(method, planes if weights is None else PLANES_OF_METHOD[method])
@@ -112,6 +119,7 @@ def infer(
         search=settings,
         fitted=method == "fitted",
         kinds=(kinds or load_kinds()) if method == "fitted" else None,
+        sizes=[(size.name, size.outer) for size in sizes],
         judgement=load_judgement() if method == "fitted" else None,
     )
     objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())

@@ -20,6 +20,8 @@ pub struct ObjectAnswer {
     pub dimensions: Option<[f64; 3]>,
     pub outer_dimensions: Option<[f64; 3]>,
     pub thickness: Option<f64>,
+    /// The given size that it matches.
+    pub size: Option<SizeAnswer>,
     pub pose: Option<PoseAnswer>,
     pub parameters: BTreeMap<String, ParameterAnswer>,
     pub parts: Vec<PartAnswer>,
@@ -27,6 +29,13 @@ pub struct ObjectAnswer {
     /// Where all assignments were summed; what the parts' probabilities are made of.
     #[serde(skip)]
     pub sums: Option<Sums>,
+}
+
+/// A given size, its outer lengths along the object's length, width and height.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SizeAnswer {
+    pub name: String,
+    pub outer_dimensions: [f64; 3],
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -67,6 +76,8 @@ pub struct PartAnswer {
     pub name: String,
     pub observed: bool,
     pub state: Option<PartState>,
+    /// Of a hidden part: unit vector from it towards a place that sees it.
+    pub seen_from: Option<[f64; 3]>,
     pub probability: Option<f64>,
     /// Of the segment in this part, by the sums.
     #[serde(skip)]
@@ -117,6 +128,7 @@ impl PartAnswer {
             corners: None,
             points: 0,
             marginal: None,
+            seen_from: None,
         }
     }
 }

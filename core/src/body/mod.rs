@@ -11,6 +11,7 @@ mod ring;
 
 pub use answer::{
     InferenceAnswer, JointAnswer, JointSigma, ObjectAnswer, ParameterAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer,
+    SizeAnswer,
 };
 pub use belief::Sums;
 pub use build::build_object;

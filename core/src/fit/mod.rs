@@ -3,6 +3,7 @@
 mod answer;
 mod body;
 mod forward;
+mod known_size;
 pub(crate) mod layout;
 mod object;
 mod panel;
@@ -16,21 +17,25 @@ mod row;
 mod sensor;
 mod settings;
 mod sheet;
+mod size_warnings;
 mod solve;
 mod start;
 mod wall_lean;
 
 pub use body::FittedBody;
 pub use forward::corners;
+pub use known_size::{KnownSize, SizeMatch};
 pub use object::fit_object;
 pub use refusal::NotFitted;
 pub use rim::Rim;
 pub use roles::Role;
 pub use settings::FitSettings;
+pub use size_warnings::size_warnings;
 
 pub(crate) use answer::fill;
 pub(crate) use body::Parameters;
 pub(crate) use forward::flap_end;
+pub(crate) use known_size::{best_match, best_match_within, share_of_score, with_known_size};
 pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
 pub(crate) use priors::priors;
@@ -42,6 +47,8 @@ pub(crate) use wall_lean::wall_lean;
 
 #[cfg(test)]
 mod derivative_tests;
+#[cfg(test)]
+mod known_size_tests;
 #[cfg(test)]
 mod recovery_tests;
 #[cfg(test)]

@@ -1,5 +1,6 @@
 use super::answer::fill;
 use super::body::FittedBody;
+use super::known_size::{with_known_size, KnownSize};
 use super::layout::{lean_name, HEIGHT, LENGTH, RACK, THICKNESS, WIDTH};
 use super::panel::{Panel, NEAR};
 use super::priors::priors;
@@ -20,7 +21,8 @@ use crate::perception::Scene;
 
 /// The object with its body fitted to the readings of its segments, and the assignment in the fitted body's order of sides.
 ///
-/// `object` and `assignment` are what `build_object` made of rectangles; the fit starts there.
+/// `object` and `assignment` are what `build_object` made of rectangles; the fit starts there. Of `sizes` the one that the
+/// body matches, if any, is taken as known.
 ///
 /// # Errors
 /// Says why there is no fitted body; a fit that has not converged is none.
@@ -28,9 +30,9 @@ pub fn fit_object(
     object: &ObjectAnswer,
     template: &Template,
     scene: &Scene,
-    set: &SegmentSet,
-    assignment: &Assignment,
+    (set, assignment): (&SegmentSet, &Assignment),
     cloud: &CloudView,
+    sizes: &[KnownSize],
     settings: &FitSettings,
 ) -> Result<(ObjectAnswer, Assignment), NotFitted> {
     let Body::OpenBox(box_roles) = &template.body else { return Err(NotFitted::NoBox) };
@@ -50,6 +52,7 @@ pub fn fit_object(
             segments.iter().map(|s| PartSegment { role: s.role.turned(turn), ..*s }).collect();
         fit(&segments, &solution.body.turned(turn), scene, &sensor, settings)?
     };
+    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
     check(&solution.body)?;
 
     let mut out = object.clone();
@@ -59,6 +62,7 @@ pub fn fit_object(
     }
     let seen: Vec<bool> = turned.iter().map(Option::is_some).collect();
     fill(&mut out, template, &roles, &seen, &solution, settings);
+    out.size = size.map(|size| size.answer(sizes));
     for segment in part_segments(&roles, scene, set, &turned) {
         let Role::Side(k) = segment.role else { continue };
         let points = segment.points.iter().map(|&index| sensor.point(index));

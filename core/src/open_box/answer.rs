@@ -1,10 +1,11 @@
 use std::collections::BTreeMap;
 
 use super::grow::FoundBox;
+use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
 use super::sight::Sight;
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer, ScoreTermAnswer};
-use crate::fit::{fill, lean_name, wall_lean, FitSettings, Role, Solution};
+use crate::fit::{fill, lean_name, wall_lean, FitSettings, KnownSize, Role, Solution};
 use crate::free_space::PartState;
 use crate::model::{Body, Template};
 
@@ -17,6 +18,7 @@ pub fn answer(
     template: &Template,
     template_probability: Option<f64>,
     sight: &Sight,
+    sizes: &[KnownSize],
     settings: &FitSettings,
     judgement: Option<&Judgement>,
 ) -> Option<(ObjectAnswer, PartReadings)> {
@@ -60,12 +62,14 @@ pub fn answer(
         dimensions: None,
         outer_dimensions: None,
         thickness: None,
+        size: None,
         pose: None,
         parameters: BTreeMap::new(),
         parts,
         joints: Vec::new(),
     };
     fill(&mut object, template, &roles, &seen, &solution, settings);
+    object.size = found.size.map(|size| size.answer(sizes));
     for k in (0..4).filter(|&k| !found.labels.of(Role::Side(k)).is_empty()) {
         let points = found.labels.of(Role::Side(k)).iter().filter_map(|&index| sight.reading(index as usize));
         let lean = wall_lean(points, &found.solution.body, k, settings);
@@ -74,6 +78,12 @@ pub fn answer(
     for &(part, role) in &roles {
         let state = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, e)| PartState::of(&e.looked()));
         object.parts[part].state = state;
+    }
+    let unseen: Vec<Role> = roles.iter().filter(|(part, _)| !seen[*part]).map(|(_, role)| *role).collect();
+    for told in unseen_parts(found, sight, &unseen) {
+        let part = roles.iter().find(|(_, role)| *role == told.role).map(|(part, _)| *part)?;
+        object.parts[part].state = Some(told.state);
+        object.parts[part].seen_from = told.seen_from.map(|d| (sight.input_from_level.rotation * d).into());
     }
     Some((object, readings))
 }

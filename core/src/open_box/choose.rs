@@ -2,13 +2,15 @@ use std::collections::BTreeSet;
 
 use super::grow::FoundBox;
 use super::shells::LEAST_SCORE;
+use crate::fit::share_of_score;
 
 /// Readings are shared by cells of so many pixels: boxes were not asked at the same ones.
 const COARSE_CELL: usize = 4;
 
 /// Takes the best, and of the rest those that leave its readings alone.
 pub fn choose(mut found: Vec<FoundBox>, width: usize) -> Vec<FoundBox> {
-    found.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref());
+    found.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     let mut out: Vec<FoundBox> = Vec::new();
     let mut taken = BTreeSet::new();
     for candidate in found {

@@ -2,25 +2,31 @@ use super::choose::choose;
 use super::flap_scan::ScannedFlap;
 use super::grow::{finish, grow, FoundBox, COARSE_M};
 use super::hanging::{scan_flaps, COARSE_SCAN};
-use super::shells::{overlap, shells, Shell};
+use super::shells::{outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
-use crate::fit::FitSettings;
+use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, KnownSize};
 use crate::perception::Scene;
 
 /// Of proposals that lie upon each other so many are fitted.
 const RIVALS_FITTED: usize = 8;
+/// How well a proposal's lengths are known.
+const PROPOSED_SIGMA_M: f64 = 0.01;
 
 /// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings.
-pub fn find(sight: &Sight, scene: &Scene, settings: &FitSettings) -> Vec<FoundBox> {
+///
+/// Of rivals those that have one of the given `sizes` win.
+pub fn find(sight: &Sight, scene: &Scene, sizes: &[KnownSize], settings: &FitSettings) -> Vec<FoundBox> {
     let mut shells = shells(sight, scene);
     for shell in &mut shells {
         shell.flaps = scan_flaps(sight, &body_of(&shell.proposal), COARSE_M, COARSE_SCAN);
         shell.score = shell.looked.score() + shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
+        shell.score *= share_of_score(best_match_within(outer_m(&shell.proposal), PROPOSED_SIGMA_M, sizes).as_ref());
     }
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let found = best_of_rivals(&shells).into_iter().filter_map(|shell| grow(sight, shell, settings)).collect();
-    choose(found, sight.width).into_iter().filter_map(|one| finish(sight, one, settings)).collect()
+    let grown = best_of_rivals(&shells).into_iter().filter_map(|shell| grow(sight, shell, settings));
+    let found = grown.map(|one| FoundBox { size: best_match(&one.solution, sizes), ..one }).collect();
+    choose(found, sight.width).into_iter().filter_map(|one| finish(sight, one, sizes, settings)).collect()
 }
 
 /// Without those that lie upon enough better ones.

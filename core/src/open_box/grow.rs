@@ -9,7 +9,9 @@ use super::sight::Sight;
 use super::start::body_of;
 use super::sure::{drop_unsure, long_enough};
 use super::surfaces::{label, roles, Labels, Present};
-use crate::fit::{canonical_turn, check, layout, FitSettings, FittedBody, Role, Solution};
+use crate::fit::{
+    canonical_turn, check, layout, with_known_size, FitSettings, FittedBody, KnownSize, Role, SizeMatch, Solution,
+};
 
 /// An open box in the level frame.
 #[derive(Debug, Clone)]
@@ -19,6 +21,8 @@ pub struct FoundBox {
     pub labels: Labels,
     pub evidence: Vec<(Role, Evidence)>,
     pub score: f64,
+    /// The given size that comes nearest; of a finished box, the one that it has.
+    pub size: Option<SizeMatch>,
     pub features: Features,
     pub part_features: Vec<(Role, Features)>,
 }
@@ -46,16 +50,17 @@ pub fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<Foun
     Some(weigh(sight, solution, present, COARSE_STRIDE))
 }
 
-/// A box that has won, with its tuck flaps, fitted to all of its readings.
-pub fn finish(sight: &Sight, found: FoundBox, settings: &FitSettings) -> Option<FoundBox> {
+/// A box that has won, with its tuck flaps, fitted to all of its readings; it takes the one of `sizes` that it matches, if any.
+pub fn finish(sight: &Sight, found: FoundBox, sizes: &[KnownSize], settings: &FitSettings) -> Option<FoundBox> {
     let turn = canonical_turn(&found.solution.body, Some(sight.eye));
     let (body, present) = (found.solution.body.turned(turn), found.present.turned(turn));
     let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);
     let solution = refit(sight, &body, &present, &labels, settings).ok()?;
+    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
     check(&solution.body).ok()?;
-    let mut out = weigh(sight, solution, present, 1);
+    let mut out = FoundBox { size, ..weigh(sight, solution, present, 1) };
     out.features = features::of_box(sight, &out);
     let of = |(role, evidence): &(Role, Evidence)| {
         let points = out.labels.of(*role);
@@ -88,5 +93,5 @@ fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize) -> 
     let look = |role: Role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M));
     let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(look).collect();
     let score = score(sight, &solution.body, &labels, &evidence);
-    FoundBox { solution, present, labels, evidence, score, features: Vec::new(), part_features: Vec::new() }
+    FoundBox { solution, present, labels, evidence, score, size: None, features: Vec::new(), part_features: Vec::new() }
 }

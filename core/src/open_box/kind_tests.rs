@@ -113,6 +113,7 @@ fn a_tote_has_no_flaps_to_tell() {
         dimensions: None,
         outer_dimensions: None,
         thickness: None,
+        size: None,
         pose: None,
         parameters: ["length", "side_0_lean", "flap_0_length", "tuck_3_width"]
             .map(|name| (name.to_owned(), crate::body::ParameterAnswer { value: 0.1, sigma: None }))

@@ -78,6 +78,12 @@ pub fn overlap(a: &Proposal, b: &Proposal) -> bool {
     within(a, b) || within(b, a)
 }
 
+/// Length, width and height over the boards, m.
+pub fn outer_m(proposal: &Proposal) -> [f64; 3] {
+    let [x, y] = proposal.spans;
+    [x[1] - x[0], y[1] - y[0], proposal.heights[1] - proposal.heights[0]]
+}
+
 pub fn middle(proposal: &Proposal) -> Vec3 {
     let half = |span: &[f64; 2]| (span[0] + span[1]) / 2.0;
     let [x, y] = proposal.spans.each_ref().map(half);

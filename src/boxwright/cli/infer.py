@@ -12,6 +12,7 @@ from boxwright.cli.options import (
     CloudsArgument,
     InputsOption,
     JsonOption,
+    KnownOptions,
     ModelOptions,
     OutOption,
     ReadOptions,
@@ -35,6 +36,7 @@ def infer(
     model: ModelOptions,
     reading: ReadOptions,
     scene: SceneOptions,
+    known: KnownOptions,
     figure: FigureOption = False,
     mjcf: MjcfOption = False,
     sdf: SdfOption = False,
@@ -53,6 +55,8 @@ def infer(
 
     boxwright infer *.ply -o out --unit mm --frame opengl
 
+    boxwright infer frame.pcd -o out --method fitted --size 400x300x200
+
     boxwright infer depth.png -o out --intrinsics camera.json --roi=-1,1,-1,1,0.4,2
     """
     import time
@@ -63,13 +67,14 @@ def infer(
     from boxwright.cli.pictures import frame_figure_drawer
 
     refuse_shared_names(clouds)
+    sizes = known.sizes(model.method_name)
     draw = frame_figure_drawer() if figure else None
     formats = ["urdf", *(["mjcf"] if mjcf else []), *(["sdf"] if sdf else [])]
 
     def answer(path: Path) -> tuple[Model, tuple[Path, ...]]:
         start = time.perf_counter()
         cloud = reading.read(path)
-        inferred = model.infer(cloud, scene, time.perf_counter() - start)
+        inferred = model.infer(cloud, scene, time.perf_counter() - start, sizes)
         files = save_answer(inferred, output / path.stem, path.stem, formats)
         if draw is not None:
             files = (*files, output / path.stem / f"{path.stem}.png")

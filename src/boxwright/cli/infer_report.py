@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from boxwright.cli.outcome import Outcome
     from boxwright.types import Model, Object
+    from boxwright.types.truth import Vector
 
 
 def print_outcome(outcome: Outcome[Model], verbose: bool, as_json: bool) -> None:
@@ -25,6 +26,8 @@ def print_outcome(outcome: Outcome[Model], verbose: bool, as_json: bool) -> None
     head = head_of(outcome.cloud, len(model.objects), "object", model.seconds)
     out.print(object_table(head, model.objects) if model.objects else f"[bold]{head}[/]\n")
     if verbose:
+        for k, found in enumerate(model.objects):
+            print_knowledge(k, found, model.up)
         print_stages(model.seconds)
     print_files(outcome.files)
 
@@ -52,6 +55,23 @@ def object_table(title: str, objects: tuple[Object, ...]) -> Table:
         for i, row in enumerate(rows):
             made.add_row(*(head if i == 0 else ("", "", "")), *row, end_section=i == len(rows) - 1)
     return made
+
+
+def print_knowledge(number: int, found: Object, up: Vector) -> None:
+    """The given size that an object has, and for each hidden part from where it would be seen."""
+    out = console()
+    if found.size is not None:
+        outer = " x ".join(f"{1000 * metres:.0f}" for metres in found.size.outer_dimensions)
+        out.print(f"{number} {found.template} has the size {found.size.name} ({outer} mm outside)")
+    for part in found.parts:
+        if part.seen_from is None or part.state is None:
+            continue
+        height = math.degrees(
+            math.asin(max(-1.0, min(1.0, sum(a * b for a, b in zip(part.seen_from, up, strict=True)))))
+        )
+        way = ", ".join(f"{coordinate:.2f}" for coordinate in part.seen_from)
+        how = f"hidden ({part.state.hidden:.2f}); seen from ({way}), {height:.0f} deg above the horizon"
+        out.print(f"{number} {found.template} {part.name}: {how}")
 
 
 def _size(found: Object) -> str:

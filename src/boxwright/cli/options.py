@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from boxwright.cli.values import Bounds, Triple
+from boxwright.cli.values import Bounds, OuterSize, Triple
 
 if TYPE_CHECKING:
     from boxwright.pipeline import Inferred
     from boxwright.segmentation import Segmented
-    from boxwright.types import Cloud
+    from boxwright.types import Cloud, KnownSize
 
 
 def _known_method(value: str | None) -> str | None:
@@ -137,6 +137,25 @@ PlanesOption = Annotated[
         rich_help_panel=MODEL,
     ),
 ]
+SizeOption = Annotated[
+    list[OuterSize] | None,
+    typer.Option(
+        "--size",
+        parser=OuterSize.parse,
+        metavar="LxWxH",
+        help="Outer size in mm that a box in view has, in any order, e.g. 400x300x200; repeatable. --method fitted.",
+        rich_help_panel=MODEL,
+    ),
+]
+CatalogueOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--catalogue",
+        metavar="FILE.toml",
+        help="Outer sizes that boxes in view may have (docs/formats.md). --method fitted.",
+        rich_help_panel=MODEL,
+    ),
+]
 JobsOption = Annotated[int | None, typer.Option("--jobs", min=1, help="Threads; default: one for each processor.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for programs instead of tables.")]
 CloudsArgument = Annotated[
@@ -202,7 +221,9 @@ class ModelOptions:
 
         return tuple(self.template) if self.template else TEMPLATES_OF_METHOD[self.method_name]
 
-    def infer(self, cloud: Cloud, scene: SceneOptions, read_seconds: float = 0.0) -> Inferred:
+    def infer(
+        self, cloud: Cloud, scene: SceneOptions, read_seconds: float = 0.0, sizes: tuple[KnownSize, ...] = ()
+    ) -> Inferred:
         """The objects of a cloud; raises as `boxwright.infer` does."""
         from boxwright.pipeline import infer
 
@@ -214,5 +235,26 @@ class ModelOptions:
             up=scene.up,
             roi=scene.roi,
             planes=scene.planes,
+            sizes=sizes,
             read_seconds=read_seconds,
         )
+
+
+@dataclass(frozen=True)
+class KnownOptions:
+    """What is known of the boxes in view."""
+
+    size: SizeOption = None
+    catalogue: CatalogueOption = None
+
+    def sizes(self, method: str) -> tuple[KnownSize, ...]:
+        """The outer sizes given, those of the command line first.
+
+        Raises typer.BadParameter where the method knows no sizes, and as `read_sizes` does.
+        """
+        from boxwright.io.sizes import known_size, read_sizes
+
+        if (self.size or self.catalogue) and method != "fitted":
+            raise typer.BadParameter(f"method {method!r} knows no sizes; add --method fitted", param_hint="--size")
+        typed = tuple(known_size(f"{size.text} mm", size.outer_mm) for size in self.size or ())
+        return typed + (read_sizes(self.catalogue) if self.catalogue else ())

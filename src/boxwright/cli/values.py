@@ -37,6 +37,29 @@ class Bounds(NamedTuple):
         return Bounds(*_numbers(text, 6))
 
 
+class OuterSize(NamedTuple):
+    """An outer size, millimetres, in any order."""
+
+    text: str
+    outer_mm: tuple[float, float, float]
+
+    @staticmethod
+    def parse(text: str) -> OuterSize:
+        """From "LxWxH" in millimetres."""
+        from boxwright.io.sizes import known_size
+
+        mend = "a size is LxWxH over the boards in mm, for instance 400x300x200"
+        try:
+            first, second, third = (float(word) for word in text.lower().split("x"))
+        except ValueError:
+            raise typer.BadParameter(f"{text!r} is not three lengths; {mend}") from None
+        try:
+            known_size(text, (first, second, third))
+        except ValueError as error:
+            raise typer.BadParameter(f"{error}; {mend}") from None
+        return OuterSize(text, (first, second, third))
+
+
 def _numbers(text: str, count: int) -> list[float]:
     try:
         values = [float(word) for word in text.split(",")]

@@ -3,6 +3,7 @@
 from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, PartState, Pose
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
+from boxwright.types.known_size import KnownSize, MatchedSize
 from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
 from boxwright.types.plan import FlapOutcome, FlapStatus, Plan, PlanSegment, SegmentKind, SmallestMove
 from boxwright.types.robot import Gripper, Opw, Place, RobotBox, RobotCapsule, RobotFile, RobotJoint, RobotLink
@@ -21,6 +22,8 @@ __all__ = [
     "Intrinsics",
     "Joint",
     "JointSigma",
+    "KnownSize",
+    "MatchedSize",
     "Model",
     "Object",
     "Opw",

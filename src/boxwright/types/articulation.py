@@ -73,6 +73,8 @@ class Part(msgspec.Struct, frozen=True, kw_only=True):
     points: int
     probability: float | None = None
     """That its points are this panel's; None where the method has none, or where it was not observed."""
+    seen_from: Vector | None = None
+    """Of a hidden part: unit vector from it towards the nearest place that would see it; None where none is known."""
 
     def __post_init__(self) -> None:
         require_name("name", self.name)
@@ -80,6 +82,8 @@ class Part(msgspec.Struct, frozen=True, kw_only=True):
         for corner in self.corners or ():
             require_finite("corners", corner)
         require_not_negative("points", [self.points])
+        if self.seen_from is not None:
+            require_unit("seen_from", self.seen_from)
         if self.observed and self.corners is None:
             raise ValueError(f"part {self.name!r} is observed but has no corners; an observed part has them")
 

@@ -19,6 +19,7 @@ from boxwright.types.checks import (
     require_probability,
     require_unit,
 )
+from boxwright.types.known_size import MatchedSize
 from boxwright.types.truth import Vector
 
 
@@ -102,7 +103,7 @@ class Object(msgspec.Struct, frozen=True, kw_only=True):
     `score` is J(G). `dimensions` and `outer_dimensions` are length, width, height and `thickness` the board's, metres;
     `pose` is input_from_object. They are None where too little was seen to say (paper's method: fewer than two sides),
     as are probabilities that the method does not have. `parts` lists every part of the template; `joints` what turns;
-    `score_terms` what the score is made of.
+    `score_terms` what the score is made of; `size` is the given size that it has, None without one.
     """
 
     template: str
@@ -118,6 +119,7 @@ class Object(msgspec.Struct, frozen=True, kw_only=True):
     parts: tuple[Part, ...]
     joints: tuple[Joint, ...]
     score_terms: tuple[ScoreTerm, ...] = ()
+    size: MatchedSize | None = None
 
     def __post_init__(self) -> None:
         require_name("template", self.template)

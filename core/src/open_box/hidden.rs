@@ -1,0 +1,54 @@
+//! What the answer says of parts that were not seen: hidden or absent, and from where a hidden one would be seen.
+
+use super::grow::FoundBox;
+use super::next_view::Surroundings;
+use super::sight::Sight;
+use super::surfaces::roles;
+use super::unseen::unseen_flap;
+use crate::fit::{layout, FittedBody, Role};
+use crate::free_space::PartState;
+use crate::geometry::Vec3;
+
+/// Of one part without readings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unseen {
+    pub role: Role,
+    pub state: PartState,
+    /// Unit vector, level frame, from the part towards a place that sees it; told of parts that are rather hidden than absent.
+    pub seen_from: Option<Vec3>,
+}
+
+/// Of the parts of a box that were not seen, `unseen`; tuck flaps only where the box has them.
+pub fn unseen_parts(found: &FoundBox, sight: &Sight, unseen: &[Role]) -> Vec<Unseen> {
+    let body = &found.solution.body;
+    let there: Vec<Role> = roles(&found.present);
+    let surroundings = Surroundings::new(sight, body, &there);
+    let mut out = Vec::new();
+    for &role in unseen {
+        let known =
+            found.evidence.iter().find(|(r, _)| *r == role).map(|(_, evidence)| PartState::of(&evidence.looked()));
+        let (state, poses) = match (known, role) {
+            (Some(state), _) => (state, vec![(body.clone(), 1.0)]),
+            (None, Role::Flap(k)) => {
+                let flap = unseen_flap(sight, body, k, usual_length_m(body, found.present.flaps));
+                (flap.state, flap.poses)
+            }
+            (None, _) => continue,
+        };
+        let is_hidden = state.hidden > state.seen && state.hidden > state.absent;
+        let seen_from = is_hidden.then(|| surroundings.seen_from(role, &poses)).flatten();
+        out.push(Unseen { role, state, seen_from });
+    }
+    out
+}
+
+/// Of the box's flaps that were found on average; else as they are cut to meet over the middle.
+fn usual_length_m(body: &FittedBody, present: [bool; 4]) -> f64 {
+    let found = (0..4).filter(|&k| present[k]).map(|k| body.get(layout::flap(k) + layout::FLAP_LENGTH));
+    let (count, sum) = found.fold((0, 0.0), |(count, sum), length_m| (count + 1, sum + length_m));
+    if count == 0 {
+        body.edge_m(0).min(body.edge_m(1)) / 2.0
+    } else {
+        sum / f64::from(count)
+    }
+}
