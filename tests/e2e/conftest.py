@@ -41,4 +41,4 @@ def weights(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def carton(weights: Path) -> tuple[str, ...]:
     """Options that look for cartons by those weights."""
-    return ("--template", "carton", "--weights", str(weights))
+    return ("--method", "paper", "--template", "carton", "--weights", str(weights))

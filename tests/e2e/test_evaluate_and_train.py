@@ -27,7 +27,7 @@ def test_evaluate_is_the_same_on_any_number_of_threads(
     assert (tmp_path / "1.json").read_bytes() == (tmp_path / "2.json").read_bytes()
     kept = load_evaluation(tmp_path / "1.json")
     assert [frame.name for frame in kept.frames] == ["large_0002", "medium_0001", "small_0000"]
-    assert face.evaluate(scene_set, templates=("carton",), weights=weights) == kept.summary
+    assert face.evaluate(scene_set, method="paper", templates=("carton",), weights=weights) == kept.summary
 
 
 def test_a_refused_frame_counts_as_nothing_found(
@@ -44,7 +44,7 @@ def test_a_refused_frame_counts_as_nothing_found(
     assert (small["frames"], small["boxes"], small["boxes_without_object"]) == (1, 1, 1)
     assert small["full_accuracy_percent"] == 0.0
     with pytest.raises(ValueError, match=r"small_0000\.pcd"):
-        face.evaluate(folder, templates=("carton",), weights=weights)
+        face.evaluate(folder, method="paper", templates=("carton",), weights=weights)
 
 
 def test_weights_are_learned_and_used(scene_set: Path, frame: Path, tmp_path: Path) -> None:
@@ -61,7 +61,7 @@ def test_weights_are_learned_and_used(scene_set: Path, frame: Path, tmp_path: Pa
     assert first.training is not None
     assert first.training.command.startswith(f"boxwright train {scene_set}")
     assert first.training.frames == 3
-    used = ("--template", "carton", "--weights", tmp_path / "carton.json")
+    used = ("--method", "paper", "--template", "carton", "--weights", tmp_path / "carton.json")
     assert boxwright("infer", frame, "-o", tmp_path / "out", *used).status == 0
 
 

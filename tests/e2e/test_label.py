@@ -73,7 +73,7 @@ def test_ten_frames_labelled_by_hand_teach_a_carton(clouds: Path, tmp_path: Path
     report = load_weights(weights).training
     assert report is not None
     assert report.frames == FRAMES + 1
-    used = ("--template", "carton", "--weights", weights, "--planes", "grid", "--json")
+    used = ("--method", "paper", "--template", "carton", "--weights", weights, "--planes", "grid", "--json")
     scored = boxwright("evaluate", mine, *used)
     assert (scored.status, scored.err) == (0, "")
     of_all = json.loads(scored.out)["categories"][-1]

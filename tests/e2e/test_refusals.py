@@ -99,7 +99,7 @@ WRONG_COMMAND_LINES = (
     ("infer", "a.pcd", "-o", "out", "--viewpoint", "1,2,high"),
     ("infer", "a.pcd", "-o", "out", "--jobs", "0"),
     ("figure", "a.pcd", "-o", "a.gif"),
-    ("train", "set", "-o", "w.json"),
+    ("train", "set", "-o", "w.json", "--method", "paper"),
     ("evaluate",),
 )
 
@@ -117,7 +117,9 @@ def test_weights_that_do_not_fit_name_the_key(frame: Path, weights: Path, tmp_pa
     del content["weights"]["sides_square"]
     wrong = tmp_path / "wrong.json"
     wrong.write_text(json.dumps(content))
-    answer = boxwright("infer", frame, "-o", tmp_path / "out", "--template", "carton", "--weights", wrong)
+    answer = boxwright(
+        "infer", frame, "-o", tmp_path / "out", "--method", "paper", "--template", "carton", "--weights", wrong
+    )
     _one_line(answer, "wrong.json", "sides_square")
 
 
