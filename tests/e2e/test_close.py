@@ -10,7 +10,7 @@ from support.command import boxwright
 
 
 def test_close_goes_the_whole_way(tmp_path: Path) -> None:
-    made = boxwright("synth", "set", "--count", "1", "--seed", "8", "--category", "pizza", folder=tmp_path)
+    made = boxwright("synth", "set", "--count", "1", "--seed", "9", "--category", "small", folder=tmp_path)
     assert made.status == 0, made.err
     (frame,) = (tmp_path / "set").glob("*.pcd")
     truth = frame.with_suffix(".truth.json")

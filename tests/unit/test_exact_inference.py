@@ -65,8 +65,8 @@ def test_no_numbers_are_refused_by_name() -> None:
 def test_infer_tells_proof_and_probability(tmp_path) -> None:
     frame = make_frame("carton", seed=2, boxes=1)
     cloud = Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=(0.0, 0.0, 0.0))
-    staged = boxwright.infer(cloud).model.objects
-    exact = boxwright.infer(cloud, search={"search": "exact"}).model.objects
+    staged = boxwright.infer(cloud, method="paper").model.objects
+    exact = boxwright.infer(cloud, method="paper", search={"search": "exact"}).model.objects
     assert staged
     assert exact
     assert all(o.probability is None for o in staged)
@@ -82,7 +82,9 @@ def test_infer_tells_proof_and_probability(tmp_path) -> None:
         accept_score=learned.accept_score,
         temperature=0.005,
     ).save(cold)
-    sure = boxwright.infer(cloud, templates=("carton",), weights=cold, search={"search": "exact"}).model.objects
+    sure = boxwright.infer(
+        cloud, method="paper", templates=("carton",), weights=cold, search={"search": "exact"}
+    ).model.objects
     assert sure
     assert sure[0].probability is not None
     assert 0.0 < sure[0].probability <= 1.0
@@ -92,14 +94,14 @@ def test_search_settings_that_do_not_exist_are_refused() -> None:
     cloud = Cloud(points=np.zeros((1, 3), np.float32), width=1, height=1)
     for search, named in (({"search": "guess"}, "search: "), ({"max_noodles": 3}, ""), ({"max_nodes": "many"}, "")):
         with pytest.raises(ValueError, match=f"^search settings: {named}"):
-            boxwright.infer(cloud, search=search)
+            boxwright.infer(cloud, method="paper", search=search)
 
 
 def test_a_search_that_ends_without_a_proof_is_told() -> None:
     frame = make_frame("carton", seed=2, boxes=1)
     cloud = Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=(0.0, 0.0, 0.0))
     search = {"search": "exact", "max_nodes": 0, "max_sweeps": 1}
-    model = boxwright.infer(cloud, templates=("carton",), search=search).model
+    model = boxwright.infer(cloud, method="paper", templates=("carton",), search=search).model
     ended = [o.inference for o in model.objects if o.inference.status == "gap"]
     assert ended
     assert all(inference.gap is not None and inference.gap > 0.0 for inference in ended)
@@ -112,4 +114,4 @@ def test_weights_of_another_template_are_refused_by_name(tmp_path) -> None:
     load_weights("cake_box").save(path)
     cloud = Cloud(points=np.zeros((1, 3), np.float32), width=1, height=1)
     with pytest.raises(ValueError, match=r"weights\.json: template: weights of \"cake_box\" do not fit \"carton\""):
-        boxwright.infer(cloud, templates=("carton",), weights=path)
+        boxwright.infer(cloud, method="paper", templates=("carton",), weights=path)

@@ -17,7 +17,7 @@ def test_seen_parts_are_told_seen_and_what_is_looked_through_is_not() -> None:
     for seed in (2, 3, 4):
         frame = make_frame("carton", seed=seed, boxes=1)
         cloud = Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=ORIGIN)
-        model = boxwright.infer(cloud, planes="grid", search=EXACT).model
+        model = boxwright.infer(cloud, method="paper", planes="grid", search=EXACT).model
         assert model.free_space == "used"
         for part in [part for box in model.objects for part in box.parts]:
             assert (part.state is None) == (part.corners is None)
@@ -31,8 +31,10 @@ def test_without_rays_nothing_is_told() -> None:
     frame = make_frame("carton", seed=2, boxes=1)
     points = frame.points[np.isfinite(frame.points).all(axis=1)]
     cloud = Cloud(points=points, width=len(points), height=1)
-    model = boxwright.infer(cloud, up=frame.truth.up, search=EXACT).model
+    model = boxwright.infer(cloud, method="paper", up=frame.truth.up, search=EXACT).model
     assert model.free_space == "no viewpoint"
     assert all(part.state is None for box in model.objects for part in box.parts)
-    staged = boxwright.infer(Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=ORIGIN))
+    staged = boxwright.infer(
+        Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=ORIGIN), method="paper"
+    )
     assert staged.model.free_space == "not used"

@@ -20,7 +20,7 @@ WEIGHTS = load_weights("carton", PLANES)
 def _inferred(index: int, search: str):
     frame = make_frame("medium", 61, index, boxes=2)
     cloud = Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=(0.0, 0.0, 0.0))
-    return boxwright.infer(cloud, templates=("carton",), planes=PLANES, search={"search": search})
+    return boxwright.infer(cloud, method="paper", templates=("carton",), planes=PLANES, search={"search": search})
 
 
 def _score(perception: _core.Perception, segments: dict[str, int | None]) -> float:

@@ -24,7 +24,8 @@ def measured_box(model: Model, index: int, base_from_input: Matrix) -> dict[str,
     on a flap. Raises ValueError where the model has no such object, or where nothing of it turns.
     """
     if not 0 <= index < len(model.objects):
-        raise ValueError(f"object {index} is not in the model; it has {len(model.objects)}, counted from 0")
+        had = f"it has {len(model.objects)}, counted from 0" if model.objects else "no box was found in it"
+        raise ValueError(f"object {index} is not in the model; {had}")
     chosen = model.objects[index]
     flaps = _flaps(chosen, base_from_input)
     if not flaps:

@@ -40,7 +40,8 @@ def place_robot(
     Raises ValueError where the model has no such object, where it has no pose, or where no place closes any flap.
     """
     if not 0 <= object_index < len(model.objects):
-        raise ValueError(f"object {object_index} is not in the model; it has {len(model.objects)}, counted from 0")
+        had = f"it has {len(model.objects)}, counted from 0" if model.objects else "no box was found in it"
+        raise ValueError(f"object {object_index} is not in the model; {had}")
     if model.objects[object_index].pose is None:
         raise ValueError(f"object {object_index} has no pose: too little of it was seen to put a robot before it")
     robot_file(robot)
