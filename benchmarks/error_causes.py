@@ -20,6 +20,7 @@ from rich.table import Table
 
 from boxwright.evaluation import list_set
 from boxwright.parallel import ordered_map, processors
+from boxwright.pipeline import DEFAULT_METHOD, METHODS
 
 KINDS = ("base", "side", "flap")
 MISSED = "of boxes missed altogether"
@@ -101,11 +102,12 @@ def main() -> None:
     """Reads the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("sets", nargs="+", type=Path)
+    parser.add_argument("--method", default=DEFAULT_METHOD, choices=METHODS)
     parser.add_argument("--jobs", type=int, default=processors())
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
     entries = [entry for folder in options.sets for entry in list_set(folder)]
-    figures = tally(list(ordered_map(judge, entries, options.jobs)))
+    figures = tally(list(ordered_map(lambda entry: judge(entry, options.method), entries, options.jobs)))
     report(figures)
     if options.json:
         options.json.write_text(json.dumps(figures, indent=2) + "\n")

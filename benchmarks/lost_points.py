@@ -147,7 +147,7 @@ def box_losses(box: BoxScore, part_names: list[str], overlap: Overlap, seen: See
     return [Loss(cause, kind_of(name), share) for cause, name in lost]
 
 
-def judge(entry: SetEntry) -> Judged:
+def judge(entry: SetEntry, method: str) -> Judged:
     """Infers and scores one frame. As in `boxwright evaluate`, a refused cloud is answered with no object."""
     frame = read_entry(entry)
     truth, labels = frame.truth, frame.labels.astype(np.int64)
@@ -155,7 +155,7 @@ def judge(entry: SetEntry) -> Judged:
     segments = object_labels = part_labels = np.full(len(labels), -1)
     refused = False
     try:
-        inferred = infer(read_cloud(entry.cloud_path))
+        inferred = infer(read_cloud(entry.cloud_path), method=method)
     except ValueError:
         refused = True
     else:

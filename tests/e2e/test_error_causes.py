@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from boxwright.evaluation import list_set
-from boxwright.models import TEMPLATE_NAMES
 from boxwright.pipeline import DEFAULT_METHOD
 from boxwright.scoring import score_entries
 from support.repository import REPOSITORY
@@ -40,7 +39,7 @@ def test_causes_sum_to_what_is_lost(two_frames: Path, tmp_path: Path) -> None:
     assert ran.returncode == 0, ran.stderr
     figures = json.loads(out.read_text())
     entries = list_set(two_frames)
-    outcomes = score_entries(entries, method=DEFAULT_METHOD, templates=TEMPLATE_NAMES, weights=None, jobs=1)
+    outcomes = score_entries(entries, method=DEFAULT_METHOD, templates=None, weights=None, jobs=1)
     boxes = [box for outcome in outcomes if outcome.score for box in outcome.score.boxes]
     lost = sum(box.panels_in_cloud - box.panels_right + box.panels_wrong for box in boxes)
     causes = figures["causes"]
