@@ -58,7 +58,7 @@ pub fn fastest(spline: &Spline, bounds: &[Bounds], cap_sq: impl Fn(f64) -> f64) 
 /// Slopes below this bound nothing.
 const FLAT: f64 = 1e-12;
 /// Between two places of the profile, at most this share of the way, and at most half a knot.
-const MOST_STEP: f64 = 1.0 / 40.0;
+pub(super) const MOST_STEP: f64 = 1.0 / 40.0;
 
 fn places(spline: &Spline) -> Vec<f64> {
     let mut found = vec![0.0];
