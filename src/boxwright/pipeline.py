@@ -39,6 +39,11 @@ PLANES_OF_METHOD = {"paper": "ransac", "exact": "grid", "fitted": "grid"}
 TEMPLATES_OF_METHOD = {"paper": TEMPLATE_NAMES, "exact": TEMPLATE_NAMES, "fitted": FITTED_TEMPLATES}
 """The templates that compete where the user names none."""
 
+UNUSED_WEIGHTS = (
+    "the weights were not used: with an image and a viewpoint the method fitted judges whole boxes by weights of its "
+    "own; name method exact or paper to use yours"
+)
+
 SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {
     "paper": {"search": "staged"},
     "exact": {"search": "exact"},
@@ -123,6 +128,7 @@ def infer(
         judgement=load_judgement() if method == "fitted" else None,
     )
     objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
+    unused = [UNUSED_WEIGHTS] if weights is not None and method == "fitted" and answer.free_space else []
     total = time.perf_counter() - start
 
     model = Model(
@@ -130,7 +136,7 @@ def infer(
         version=1,
         method=method,
         source=source_of(cloud),
-        warnings=tuple(perception.warnings + answer.warnings),
+        warnings=tuple(perception.warnings + answer.warnings + unused),
         seconds=Seconds(read=read_seconds, stages=perception.stage_seconds | answer.stage_seconds, total=total),
         up=vector(perception.up),
         support_plane=support_plane_of(perception),
