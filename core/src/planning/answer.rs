@@ -156,8 +156,11 @@ fn segment(piece: &Piece, arm: &Arm, problem: &BoxProblem, settings: &PlanningSe
     let mut now_s = start_s;
     for (first, last) in legs(&piece.positions) {
         let way = &piece.positions[first..=last];
-        let cap =
-            |place: f64| if is_push { speed_cap(piece, &lengths, place, settings).powi(2) } else { f64::INFINITY };
+        // A leg's places begin at 0; those of the piece where the leg begins.
+        let cap = |place: f64| match is_push {
+            true => speed_cap(piece, &lengths, lengths[first] + place, settings).powi(2),
+            false => f64::INFINITY,
+        };
         let Some(leg) = time(way, &bounds, settings.period_s, cap) else { continue };
         segment.add(&leg, now_s, piece, &lengths, (lengths[first], lengths[last]));
         now_s += leg.duration_s();
