@@ -37,6 +37,7 @@ pub struct FlapAnswer {
     pub status: &'static str,
     pub reason: Option<String>,
     pub seconds: f64,
+    pub rest_rad: Option<f64>,
 }
 
 /// What plan.json says of the motion.
@@ -116,6 +117,7 @@ pub fn timed(closing: &Closing, arm: &Arm, problem: &BoxProblem, settings: &Plan
         status: outcome.status.name(),
         reason: (!outcome.reason.is_empty()).then(|| outcome.reason.clone()),
         seconds: outcome.seconds,
+        rest_rad: outcome.rest_rad,
     });
     Answer {
         robot: arm.name.clone(),

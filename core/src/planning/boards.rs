@@ -4,6 +4,7 @@ use super::flap::Flap;
 use super::problem::BoxProblem;
 use super::reason::Obstacle;
 use super::settings::PlanningSettings;
+use crate::collision::{clear_by, OrientedBox, Solid};
 use crate::geometry::Vec3;
 
 /// The moving board is taken to be this much smaller all round: boards that only graze are given way by the folds, and models err
@@ -11,12 +12,16 @@ use crate::geometry::Vec3;
 const GRAZE_M: f64 = 0.006;
 /// Between two angles at which boards are held against each other.
 const STEP_RAD: f64 = 0.06;
+/// The ends of a flap that has sprung up give way by this much to one that comes down beside them. Steeper than this it presses them
+/// aside rather than down: board on board has friction, and cannot slide where its tangent is steeper than 1 / friction.
+const GIVING_END_M: f64 = 0.015;
+const JAM_RAD: f64 = 1.15;
 /// Boards that meet this soon after the start met there already, by the model's error.
 const START_RAD: f64 = 0.09;
 
 /// The first board that a flap meets on its way to an angle, while the others stand at `angles_rad`; None where the way is free.
 ///
-/// It may come to lie on flaps that are closed. Its own side and what hangs on itself do not count.
+/// It may come to lie on flaps that are closed, unless they have sprung up so far that it meets their ends where it is steep. Its own side and what hangs on itself do not count.
 pub fn met(
     problem: &BoxProblem,
     angles_rad: &[f64],
@@ -35,6 +40,13 @@ pub fn met(
             std::iter::once((other.name.as_str(), other.corners(angles_rad[k]))).chain(tucks)
         })
         .collect();
+    let down: Vec<(&str, [Vec3; 4])> = problem
+        .flaps
+        .iter()
+        .enumerate()
+        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] <= settings.closed_rad)
+        .map(|(k, other)| (other.name.as_str(), shrunk(&other.corners(angles_rad[k]), GIVING_END_M)))
+        .collect();
     let from_rad = angles_rad[flap];
     let steps = ((from_rad - to_rad).abs() / STEP_RAD).ceil().max(1.0) as usize;
     for step in 1..=steps {
@@ -42,8 +54,9 @@ pub fn met(
         if (from_rad - angle_rad).abs() < START_RAD {
             continue;
         }
-        let board = shrunk(&moving.corners(angle_rad));
-        if let Some((name, _)) = others.iter().find(|(_, other)| quads_cross(&board, other)) {
+        let board = shrunk(&moving.corners(angle_rad), GRAZE_M);
+        let jams = down.iter().filter(|_| angle_rad > JAM_RAD);
+        if let Some((name, _)) = others.iter().chain(jams).find(|(_, other)| quads_cross(&board, other)) {
             return Some(Obstacle::Boards { flap: moving.name.clone(), other: (*name).to_string() });
         }
     }
@@ -54,14 +67,57 @@ fn has_extent(flap: &Flap) -> bool {
     flap.standing != super::flap::Standing::Absent && flap.length_m() > 0.0
 }
 
-/// A quadrilateral with each corner moved in along both of its edges.
-fn shrunk(corners: &[Vec3; 4]) -> [Vec3; 4] {
+/// A quadrilateral with each corner moved in by so much along both of its edges.
+fn shrunk(corners: &[Vec3; 4], by_m: f64) -> [Vec3; 4] {
     std::array::from_fn(|k| {
         let toward = |other: &Vec3| {
             let edge = other - corners[k];
-            edge * (GRAZE_M / edge.norm().max(2.0 * GRAZE_M))
+            edge * (by_m / edge.norm().max(2.0 * by_m))
         };
         corners[k] + toward(&corners[(k + 1) % 4]) + toward(&corners[(k + 3) % 4])
+    })
+}
+
+/// Do two flaps hang on sides across from one another?
+pub fn are_opposite(a: &Flap, b: &Flap) -> bool {
+    matches!((a.number(), b.number()), (Some(p), Some(q)) if p % 2 == q % 2 && p != q)
+}
+
+/// Would two flaps lie over one another when both are closed? What only meets at a corner does.
+pub fn overlap_closed(a: &Flap, b: &Flap) -> bool {
+    let frame = a.frame(0.0);
+    let flat = |flap: &Flap| {
+        flap.corners(0.0).map(|corner| {
+            let seen = frame.coordinates(&corner);
+            [seen.x, seen.y]
+        })
+    };
+    let (p, q) = (flat(a), flat(b));
+    !parted(&p, &q) && !parted(&q, &p)
+}
+
+/// Does an edge of one convex quadrilateral have all of the other on its outer side?
+fn parted(p: &[[f64; 2]; 4], q: &[[f64; 2]; 4]) -> bool {
+    let side = |k: usize, r: &[f64; 2]| {
+        let (a, b) = (p[k], p[(k + 1) % 4]);
+        (b[0] - a[0]) * (r[1] - a[1]) - (b[1] - a[1]) * (r[0] - a[0])
+    };
+    (0..4).any(|k| {
+        let inside = side(k, &p[(k + 2) % 4]).signum();
+        q.iter().all(|r| side(k, r) * inside <= 0.0)
+    })
+}
+
+/// Would a flap that is pushed below closed come to lie on the sides beside it, or on another fixed board? Their edges reach half a
+/// board short of where they are told, as what is folded there turns about the middle of its board.
+pub fn stopped_by_rims(problem: &BoxProblem, flap: usize, hold_rad: f64, settings: &PlanningSettings) -> bool {
+    let moving = &problem.flaps[flap];
+    let Some(board) = OrientedBox::of_panel(&moving.corners(hold_rad), problem.thickness_m) else { return false };
+    let sides = problem.fixed.iter().filter(|side| side.name.starts_with("side_") && side.name != moving.side);
+    sides.filter_map(|side| OrientedBox::of_panel(&side.corners, problem.thickness_m)).any(|mut side| {
+        let half_m = Vec3::new(1.0, 1.0, 0.0) * (problem.thickness_m / 2.0);
+        side.half_m = (side.half_m - half_m).sup(&Vec3::repeat(problem.thickness_m / 4.0));
+        !clear_by(&Solid::Box(board), &Solid::Box(side), settings.rim_gap_m)
     })
 }
 

@@ -56,7 +56,7 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
         let started = Instant::now();
         match closer.push(flap, &Moment::resting(&angles_rad)) {
             Ok(push) => {
-                angles_rad[flap] = closer.settings.rest_rad;
+                angles_rad[flap] = closer.rest_rad(flap, &push);
                 found.order.push(flap);
                 found.pushes.push(push);
             }
@@ -105,10 +105,11 @@ impl<G: Guard> Search<'_, '_, G> {
             if !self.can_push(flap, order, angles_rad) {
                 continue;
             }
+            let rest_rad = self.rest_rad(flap, order);
             order.push(flap);
             let others: Vec<usize> = rest.iter().copied().filter(|&other| other != flap).collect();
             let mut after = angles_rad.to_vec();
-            after[flap] = self.closer.settings.rest_rad;
+            after[flap] = rest_rad;
             if self.extend(order, &others, &after) {
                 return true;
             }
@@ -122,6 +123,12 @@ impl<G: Guard> Search<'_, '_, G> {
         let sets = (0..=order.len()).rev().map(|count| closed_set(&order[..count]));
         let mut tried = sets.filter_map(|set| self.known.get(&(flap, set)));
         tried.find_map(|tried| tried.as_ref().err().cloned())
+    }
+
+    /// Where a flap whose push is known rests after it.
+    fn rest_rad(&self, flap: usize, before: &[usize]) -> f64 {
+        let push = self.known.get(&(flap, closed_set(before))).and_then(|tried| tried.as_ref().ok());
+        push.map_or(0.0, |push| self.closer.rest_rad(flap, push))
     }
 
     fn can_push(&mut self, flap: usize, before: &[usize], angles_rad: &[f64]) -> bool {

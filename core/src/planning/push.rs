@@ -181,7 +181,8 @@ impl<G: Guard> Pusher<'_, G> {
     pub fn why_stuck(&self, angle_rad: f64, at_start: bool, tally: &Tally) -> WhyNot {
         let degrees = angle_rad.to_degrees();
         let place = if at_start { "where it stands".to_string() } else { format!("at {degrees:.0} degrees") };
-        let near = tally.commonest(|obstacle| matches!(obstacle, Obstacle::Near { .. } | Obstacle::NoWay { .. }));
+        let near = tally
+            .commonest(|obstacle| matches!(obstacle, Obstacle::Near { .. } | Obstacle::NoWay { .. } | Obstacle::Moves));
         let limit = tally.commonest(|obstacle| matches!(obstacle, Obstacle::Limit { .. }));
         let any = tally.commonest(|_| true);
         let (status, obstacle) = match (near, limit, any) {

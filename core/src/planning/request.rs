@@ -7,6 +7,7 @@ use super::closing::Closer;
 use super::exhaustive::Exhaustive;
 use super::flap::Standing;
 use super::guard::Moment;
+use super::load::Load;
 use super::problem::MeasuredBox;
 use super::reason::Obstacle;
 use super::settings::PlanningSettings;
@@ -74,8 +75,9 @@ impl Request {
     pub fn plan(self, arm: &Arm) -> Result<Answer> {
         let mut problem = self.measured.into_problem()?;
         let settings = &self.settings;
-        for flap in problem.flaps.iter_mut().filter(|flap| self.closed.contains(&flap.name)) {
-            flap.position_rad = settings.rest_rad;
+        let load = Load::of(&problem, &settings.assumed);
+        for (flap, fold) in problem.flaps.iter_mut().zip(&load.folds).filter(|(f, _)| self.closed.contains(&f.name)) {
+            flap.position_rad = fold.rest_rad(0.0).min(settings.closed_rad);
         }
         let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
         let guard = Surroundings::new(arm, &problem, scene);
@@ -89,6 +91,7 @@ impl Request {
                 arm,
                 guard: &guard,
                 problem: &problem,
+                load: &load,
                 settings: &settings,
                 method: self.method,
                 only: &self.only,
