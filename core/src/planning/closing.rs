@@ -295,7 +295,8 @@ impl<G: Guard> Way<'_, '_, G> {
     fn transit(&self, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
         let moment = Moment::resting(&self.angles_rad);
         let closer = self.closer;
-        Transit { arm: closer.arm, guard: closer.guard, settings: closer.settings, moment: &moment }
+        let step_rad = closer.settings.joint_step_rad;
+        Transit { arm: closer.arm, guard: closer.guard, settings: closer.settings, moment: &moment, step_rad }
             .way(&self.at, to, via)
     }
 

@@ -302,7 +302,7 @@ impl<G: Guard> Layers<'_, G> {
 }
 
 /// Whole paths handed back, at most.
-const MOST_PATHS: usize = 6;
+const MOST_PATHS: usize = 24;
 /// What sliding to the contact beside costs, besides the strain there: a finger that slips drags the box with it.
 const SLIDE_COST: f64 = 0.15;
 /// The first layer is this much wider than the others, and this many postures are tried for it.

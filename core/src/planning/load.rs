@@ -46,6 +46,10 @@ const SPIN_SHARE: f64 = 0.27;
 /// A finger that slips along the board drags it aside with this share of what it pushes with.
 const DRAG_SHARE: f64 = 0.3;
 
+/// Places along and across, and angles, that `is_bearable` asks about.
+const PLACES: usize = 10;
+const BEARABLE_STEP_RAD: f64 = 0.0873;
+
 /// One flap's crease and weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fold {
@@ -140,6 +144,25 @@ impl Load {
     pub fn of(problem: &BoxProblem, assumed: &Assumed) -> Self {
         let folds = problem.flaps.iter().map(|flap| Fold::of(flap, problem.thickness_m, assumed)).collect();
         Self { folds, stand: Stand::of(problem, assumed) }
+    }
+
+    /// Is there at every angle, from where a flap stands to closed, some place on it where a push square to its face turns it and
+    /// leaves the box standing? Statics alone, whatever the arm can reach.
+    pub fn is_bearable(&self, problem: &BoxProblem, flap: usize) -> bool {
+        let (Some(stand), fold) = (&self.stand, self.folds[flap]) else { return true };
+        let flap = &problem.flaps[flap];
+        let places = || (0..PLACES * PLACES).map(|k| [k % PLACES, k / PLACES].map(|k| (k + 1) as f64 / PLACES as f64));
+        let steps = (flap.position_rad / BEARABLE_STEP_RAD).ceil().max(1.0) as usize;
+        (0..=steps).all(|step| {
+            let angle_rad = flap.position_rad * (1.0 - step as f64 / steps as f64);
+            let frame = flap.frame(angle_rad);
+            places().any(|[along, away]| {
+                let lever_m = away * flap.length_m();
+                let at = frame.at(along * flap.hinge_length_m(), lever_m, problem.thickness_m / 2.0);
+                let push_n = fold.closing_n_m(angle_rad).max(0.0) / lever_m;
+                stand.strain(&at, &(frame.push() * push_n)) <= 1.0
+            })
+        })
     }
 }
 

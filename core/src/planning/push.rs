@@ -80,6 +80,7 @@ impl<G: Guard> Pusher<'_, G> {
                 Found::Stuck { layer, tally } => why = Some(self.why_stuck(angles_rad[layer], layer == 0, &tally)),
                 Found::Paths(paths) => {
                     let mut tally = Tally::default();
+                    self.guard.explain_anew();
                     for path in &paths {
                         match self.dense(&layers, path, &lines, (&touching, &before), (&held, &after)) {
                             Ok(motion) => return Ok(motion),

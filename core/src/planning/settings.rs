@@ -91,7 +91,7 @@ impl Default for PlanningSettings {
             under_rad: 4f64.to_radians(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
-            beams: vec![16, 80],
+            beams: vec![16, 100],
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,
