@@ -210,18 +210,35 @@ impl<G: Guard> Closer<'_, G> {
         }
         let hold_rad = self.hold_rad(flap, moment);
         if let Some(obstacle) = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings) {
-            return Err(WhyNot { status: Status::Blocked, reason: obstacle.to_string(), by_flaps: true });
+            return Err(WhyNot {
+                status: Status::Blocked,
+                reason: obstacle.to_string(),
+                by_flaps: true,
+                moves_box: false,
+            });
         }
-        let first = self.pusher(flap, moment, hold_rad).plan();
+        let most_strain = self.settings.most_strain;
+        let first = self.pusher(flap, moment, hold_rad, most_strain).plan();
         let short_rad = self.settings.short_on_others_rad;
         match first {
             // Arms that cannot follow the flap beyond closed may still lay it down.
-            Err(why) if hold_rad < 0.0 => self.pusher(flap, moment, short_rad).plan().map_err(|_| why),
+            Err(why) if hold_rad < 0.0 => self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why),
             tried => tried,
         }
     }
 
-    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Pusher<'_, G> {
+    /// The same of a flap that stands so low that it closes even if the box slides a little; None where it does not.
+    pub fn push_home(&self, flap: usize, moment: &Moment) -> Option<PushMotion> {
+        let hold_rad = self.hold_rad(flap, moment);
+        let is_low = moment.angles_rad[flap] <= self.settings.slides_home_rad;
+        let meets = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings).is_some();
+        if !is_low || meets {
+            return None;
+        }
+        self.pusher(flap, moment, hold_rad, f64::INFINITY).plan().ok()
+    }
+
+    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
         let half_board_m = self.problem.thickness_m / 2.0;
         Pusher {
             arm: self.arm,
@@ -234,6 +251,7 @@ impl<G: Guard> Closer<'_, G> {
                 self.settings,
                 (self.load.folds[flap], self.load.stand.as_ref()),
             ),
+            most_strain,
             flap,
             moment: moment.clone(),
             hold_rad,
@@ -243,7 +261,7 @@ impl<G: Guard> Closer<'_, G> {
 
     /// The paper's push, to closed and no further.
     fn paper_push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
-        let pusher = self.pusher(flap, moment, 0.0);
+        let pusher = self.pusher(flap, moment, 0.0, f64::INFINITY);
         PlanesSearch { pusher: &pusher, settings: self.settings }.plan()
     }
 }
@@ -264,7 +282,7 @@ impl<G: Guard> Way<'_, '_, G> {
         let ready = self.closer.arm.ready;
         let Some(transit) = self.transit(&push.approach[0], &ready) else {
             let reason = Obstacle::NoWay { to: "to it" }.to_string();
-            return Err(WhyNot { status: Status::Blocked, reason, by_flaps: false });
+            return Err(WhyNot { status: Status::Blocked, reason, by_flaps: false, moves_box: false });
         };
         let resting = self.angles_rad.clone();
         let rest_rad = self.closer.rest_rad(flap, &push);

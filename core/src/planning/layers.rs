@@ -20,6 +20,8 @@ pub struct Layers<'a, G: Guard> {
     pub contacts: &'a Contacts<'a>,
     pub settings: &'a PlanningSettings,
     pub flap: usize,
+    /// Of what moves the box.
+    pub most_strain: f64,
     /// Where all flaps are; this one moves.
     pub moment: &'a Moment,
     /// Hinge angles, first to last, rad, and where all flaps are then.
@@ -247,7 +249,7 @@ impl<G: Guard> Layers<'_, G> {
         let grip = self.contacts.grip(&frame, self.place_m(place), &self.contacts.rotation(orientation));
         let moment = &self.moments[layer];
         let bearable = grip.filter(|grip| {
-            let moves = grip.strain > self.settings.most_strain;
+            let moves = grip.strain > self.most_strain;
             if moves {
                 tally.add(Obstacle::Moves);
             }

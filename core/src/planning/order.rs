@@ -41,7 +41,30 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
     }
     let left = ranked.iter().filter(|flap| !best.contains(flap));
     let why_not = left.filter_map(|&flap| Some((flap, search.why_not(flap, &best)?))).collect();
-    Ordered { order: best, pushes, why_not, seconds: search.seconds }
+    let mut ordered = Ordered { order: best, pushes, why_not, seconds: search.seconds };
+    add_sliding(closer, &mut ordered, angles_rad);
+    ordered
+}
+
+/// Puts last what may move the box, so that no other flap is missed for it.
+fn add_sliding<G: Guard>(closer: &Closer<'_, G>, ordered: &mut Ordered, angles_rad: &[f64]) {
+    let mut angles_rad = angles_rad.to_vec();
+    for (&flap, push) in ordered.order.iter().zip(&ordered.pushes) {
+        angles_rad[flap] = closer.rest_rad(flap, push);
+    }
+    for (flap, why) in std::mem::take(&mut ordered.why_not) {
+        let started = Instant::now();
+        let push = if why.moves_box { closer.push_home(flap, &Moment::resting(&angles_rad)) } else { None };
+        ordered.seconds[flap] += started.elapsed().as_secs_f64();
+        match push {
+            Some(push) => {
+                angles_rad[flap] = closer.rest_rad(flap, &push);
+                ordered.order.push(flap);
+                ordered.pushes.push(push);
+            }
+            None => ordered.why_not.push((flap, why)),
+        }
+    }
 }
 
 /// As the paper closes them: by area, ties by number, each once, whatever becomes of the others.

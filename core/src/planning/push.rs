@@ -34,6 +34,8 @@ pub struct Pusher<'a, G: Guard> {
     pub guard: &'a G,
     pub settings: &'a PlanningSettings,
     pub contacts: Contacts<'a>,
+    /// The greatest share of what moves the box that the push may be.
+    pub most_strain: f64,
     pub flap: usize,
     /// Where all flaps are before the push.
     pub moment: Moment,
@@ -56,6 +58,7 @@ impl<G: Guard> Pusher<'_, G> {
             guard: self.guard,
             contacts: &self.contacts,
             settings: self.settings,
+            most_strain: self.most_strain,
             flap: self.flap,
             moment: &pressed,
             angles_rad: &angles_rad,
@@ -95,6 +98,7 @@ impl<G: Guard> Pusher<'_, G> {
             status: Status::OutOfTime,
             reason: "no search was allowed".into(),
             by_flaps: false,
+            moves_box: false,
         }))
     }
 
@@ -198,7 +202,8 @@ impl<G: Guard> Pusher<'_, G> {
             Obstacle::Something => true,
             _ => false,
         });
-        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps }
+        let moves_box = tally.any(|obstacle| *obstacle == Obstacle::Moves);
+        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, moves_box }
     }
 }
 

@@ -95,4 +95,6 @@ pub struct WhyNot {
     pub reason: String,
     /// Whether other flaps had a part in it: then it may be otherwise once they have moved.
     pub by_flaps: bool,
+    /// Whether pushes were left out that would have moved the box.
+    pub moves_box: bool,
 }

@@ -24,9 +24,11 @@ pub struct PlanningSettings {
     pub short_on_stacks_rad: f64,
     /// Boards that come nearer to a flap than this on their way down are taken to stop it.
     pub rim_gap_m: f64,
-    /// What is taken for granted of folds and weight, and the greatest share of what moves the box that a push may be.
+    /// What is taken for granted of folds and weight, and the greatest share of what moves the box that a push may be. A flap below
+    /// this angle closes even if the box slides a little: where nothing else closes it, it is pushed all the same, after the others.
     pub assumed: Assumed,
     pub most_strain: f64,
+    pub slides_home_rad: f64,
     /// How far below a flap that is pushed onto others those are taken to give way.
     pub under_rad: f64,
     /// Between two layers of the search, at most.
@@ -85,9 +87,10 @@ impl Default for PlanningSettings {
             short_on_others_rad: 0.3f64.to_radians(),
             short_on_rims_rad: 0.5f64.to_radians(),
             short_on_stacks_rad: 2.5f64.to_radians(),
-            rim_gap_m: 0.001,
+            rim_gap_m: 0.0003,
             assumed: Assumed::default(),
             most_strain: 0.85,
+            slides_home_rad: 80f64.to_radians(),
             under_rad: 4f64.to_radians(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
