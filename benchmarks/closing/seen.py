@@ -6,7 +6,7 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from benchmarks.closing.problems import SEED, Problem
+from benchmarks.closing.problems import Problem, camera_pose
 
 from boxwright import infer
 from boxwright.planning import plan_closing
@@ -14,13 +14,8 @@ from boxwright.replanning import close_by_looking
 from boxwright.simulation.physics import BoardBox, LiveBox, cloud_of, modelled_box, run_of, staged_plan
 from boxwright.simulation.physics.look import look_again
 from boxwright.simulation.poses import inverse
-from boxwright.simulation.views import look_at
 from boxwright.types import Cloud, Model, Simulation
 
-ELEVATION_DEG = (45.0, 65.0)
-BESIDE_ROBOT_DEG = 60.0
-"""The camera looks over the robot's shoulder: this far to either side of the line from box to robot, at most."""
-DISTANCE_M = (0.9, 1.2)
 SAME_BOX_M = 0.2
 
 
@@ -54,17 +49,6 @@ def close_seen(problem: Problem, robot: str, crease: str, settings: dict[str, An
         close_by_looking(model, robot, base_from_input, live, _inferred, object_index=index, settings=settings)
         statuses |= dict.fromkeys(live.pushed, "planned")
     return Seen(staged.session.box, statuses, plan.seconds, run_of(staged.session, crease, staged.kind).simulation)
-
-
-def camera_pose(problem: Problem) -> np.ndarray:
-    """base_from_input (4, 4) of a camera that looks at the box's middle, drawn by the problem's number."""
-    rng = np.random.default_rng([SEED, problem.number, 1])
-    corners = np.concatenate([np.array(part.corners) for part in problem.box.parts if part.corners is not None])
-    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-    azimuth_rad = np.arctan2(-middle[1], -middle[0]) + np.radians(rng.uniform(-BESIDE_ROBOT_DEG, BESIDE_ROBOT_DEG))
-    elevation_rad, distance_m = np.radians(rng.uniform(*ELEVATION_DEG)), rng.uniform(*DISTANCE_M)
-    spread_m = float(np.linalg.norm(corners.max(axis=0) - corners.min(axis=0)))
-    return inverse(look_at(middle, azimuth_rad, elevation_rad, distance_m + spread_m / 2.0, 0.0))
 
 
 def _inferred(cloud: Cloud) -> Model:

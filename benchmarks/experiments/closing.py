@@ -49,7 +49,8 @@ def report(found: list[Record], limits: dict[int, Limits]) -> Report:
     told = ", ".join(f"{way} {count}" for way, count in counts.items() if count)
     how = (
         "Here: boxes of the set that `benchmarks/closing/problems.py` draws (every size, anywhere before the arm, "
-        f"flaps at 40 to 235 degrees), the first of its {COUNT}: {told}. `layered` is our planner, `paper` that of 2011, "
+        f"flaps at 40 to 235 degrees), the first of its {COUNT}: {told} (`python -m benchmarks.closing` measures "
+        "them). `layered` is our planner, `paper` that of 2011, "
         "both on true models; `seen` is ours on models inferred from one simulated frame each, `looking` the same with "
         "a look after each flap (`--replan`); physics closes the true box. Planners are told the class of creases. "
         "Planned, reached, held: share of open flaps with a plan; at 0 (within 2 degrees) while pushed; closed after "

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 
 from boxwright.kinematics.transforms import Matrix, apply
-from boxwright.planning import plan_closing
+from boxwright.planning import measured_box, plan_closing
 from boxwright.types import Cloud, Joint, Model, Object, Plan
 
 TRIES = 2
@@ -19,6 +19,9 @@ SAME_HINGE_M = 0.08
 """Hinges whose middles are no farther apart, from one look to the next, are one and the same."""
 SAME_BOX_M = 0.2
 """The same of boxes and their bases."""
+SAME_SIZE_M = 0.01
+SAME_SIZE_SHARE = 0.04
+"""Dimensions that differ by more than this are another box's, or were not seen well."""
 
 
 class Place(Protocol):
@@ -41,10 +44,23 @@ class Step(msgspec.Struct, frozen=True, eq=False):
 
 
 class Looked(msgspec.Struct, frozen=True, eq=False):
-    """The steps that were taken, and why there is no further one."""
+    """The steps, how many of the looks between them did not show the box, and why there is no further step."""
 
     steps: tuple[Step, ...]
+    blind: int
     ended: str
+
+
+class _Sight(msgspec.Struct, frozen=True, eq=False):
+    """The last model in which the box was seen, which object it is, and the flaps that were closed since."""
+
+    model: Model
+    index: int
+    closed: tuple[str, ...] = ()
+
+    @property
+    def box(self) -> Object:
+        return self.model.objects[self.index]
 
 
 class _Tries:
@@ -89,51 +105,63 @@ def close_by_looking(
 ) -> Looked:
     """Close a box flap by flap, each planned on what is seen after the one before; `first` is the first sight of it.
 
-    `planning` goes to `plan_closing`. Ends when nothing is left to plan, when a flap was tried `TRIES` times, or when
-    the box is not found again. Raises as `plan_closing` does on the first model.
+    Where a look does not show the box, or shows one of another size in its place, what was seen before counts on, with
+    the flaps that were closed since. `planning` goes to `plan_closing`. Ends when nothing is left to plan, or each flap
+    left was tried `TRIES` times. Raises as `plan_closing` does on the first model.
     """
+    measured_box(first, object_index, base_from_input)
     tries = _Tries(base_from_input)
+    sight, blind = _Sight(first, object_index), 0
     steps: list[Step] = []
-    model, index = first, object_index
     while True:
-        plan = _next_flap(model, index, robot, base_from_input, tries, planning)
+        plan = _next_flap(sight, robot, base_from_input, tries, planning)
         if plan is None:
-            return Looked(tuple(steps), "nothing is left that can be planned")
-        place.act(plan, model)
-        steps.append(Step(model, plan))
+            return Looked(tuple(steps), blind, "nothing is left that can be planned")
+        place.act(plan, sight.model)
+        steps.append(Step(sight.model, plan))
         if plan.segments[-1].positions[-1] != plan.segments[0].positions[0]:
-            return Looked(tuple(steps), "the arm found no way back to where it looks from")
+            return Looked(tuple(steps), blind, "the arm found no way back to where it looks from")
         seen = infer(place.look())
-        found = _same_box(seen, model.objects[index])
-        if found is None:
-            return Looked(tuple(steps), "the box was not found again")
-        model, index = seen, found
+        found = _same_box(seen, sight.box)
+        if found is not None:
+            sight = _Sight(seen, found)
+        else:
+            sight, blind = _Sight(sight.model, sight.index, (*sight.closed, *plan.order)), blind + 1
 
 
 def _next_flap(
-    model: Model, index: int, robot: str | PathLike[str], base_from_input: Matrix, tries: _Tries,
-    planning: Mapping[str, Any],
-) -> Plan | None:  # fmt: skip
+    sight: _Sight, robot: str | PathLike[str], base_from_input: Matrix, tries: _Tries, planning: Mapping[str, Any]
+) -> Plan | None:
     """The plan of the flap that comes next, alone; None where no flap is left, or none of them can be planned."""
-    joints = {joint.child: joint for joint in model.objects[index].joints}
-    wanted = tuple(name for name, joint in joints.items() if tries.count(joint) < TRIES)
+    joints = {joint.child: joint for joint in sight.box.joints}
+    wanted = tuple(name for name, joint in joints.items() if name not in sight.closed and tries.count(joint) < TRIES)
     if not wanted:
         return None
-    whole = plan_closing(model, robot, base_from_input, object_index=index, only=wanted, **planning)
+    known = {"object_index": sight.index, "closed": sight.closed, **planning}
+    whole = plan_closing(sight.model, robot, base_from_input, only=wanted, **known)
     for name in whole.order[:1]:
         tries.note(joints[name])
-        return plan_closing(model, robot, base_from_input, object_index=index, only=(name,), **planning)
+        alone = plan_closing(sight.model, robot, base_from_input, only=(name,), **known)
+        return alone if alone.segments else None
     return None
 
 
 def _same_box(model: Model, known: Object) -> int | None:
-    """The object whose base is nearest to where the known one's was, both in the input's frame."""
+    """The object that stands where the known one did, and is as large; both in the input's frame."""
     if known.pose is None:
         return None
     far_m = {
         k: float(np.linalg.norm(np.subtract(found.pose.position, known.pose.position)))
         for k, found in enumerate(model.objects)
-        if found.pose is not None and found.joints
+        if found.pose is not None and found.joints and _as_large(found, known)
     }
     nearest = min(far_m, key=far_m.__getitem__, default=None)
     return nearest if nearest is not None and far_m[nearest] <= SAME_BOX_M else None
+
+
+def _as_large(found: Object, known: Object) -> bool:
+    """Length and width may have changed places, as sides are numbered from the camera."""
+    if found.dimensions is None or known.dimensions is None:
+        return False
+    sizes, others = ((*sorted(o.dimensions[:2]), o.dimensions[2]) for o in (found, known) if o.dimensions)
+    return all(abs(a - b) <= SAME_SIZE_M + SAME_SIZE_SHARE * b for a, b in zip(sizes, others, strict=True))

@@ -108,8 +108,8 @@ fn parted(p: &[[f64; 2]; 4], q: &[[f64; 2]; 4]) -> bool {
     })
 }
 
-/// Would a flap that is pushed below closed come to lie on the sides beside it, or on another fixed board? Their edges reach half a
-/// board short of where they are told, as what is folded there turns about the middle of its board.
+/// Would a flap that is pushed below closed come to lie on other sides than its own? Their edges end half a board short of where they
+/// are told, as what is folded there turns about the middle of its board.
 pub fn stopped_by_rims(problem: &BoxProblem, flap: usize, hold_rad: f64, settings: &PlanningSettings) -> bool {
     let moving = &problem.flaps[flap];
     let Some(board) = OrientedBox::of_panel(&moving.corners(hold_rad), problem.thickness_m) else { return false };
@@ -142,6 +142,9 @@ fn edges_cross(a: &[Vec3; 4], b: &[Vec3; 4]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
+    use super::super::problem::MeasuredBox;
     use super::*;
 
     fn quad(corners: [[f64; 3]; 4]) -> [Vec3; 4] {
@@ -155,5 +158,73 @@ mod tests {
         assert!(quads_cross(&flat, &upright(0.5)));
         assert!(!quads_cross(&flat, &upright(1.1)));
         assert!(!quads_cross(&flat, &flat.map(|p| p + Vec3::z())));
+    }
+
+    const THICKNESS_M: f64 = 0.004;
+
+    /// A box of 0.4 by 0.3 by 0.2 m with flaps upright: so much narrower than their sides at each end, and so long.
+    fn carton(narrower_m: f64, lengths_m: [f64; 4]) -> BoxProblem {
+        let rim = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]];
+        let mut sides = Vec::new();
+        let mut flaps = Vec::new();
+        for k in 0..4 {
+            let ends = [rim[k], rim[(k + 1) % 4]];
+            let at = |share: f64, z: f64| -> [f64; 3] {
+                std::array::from_fn(|i| if i == 2 { z } else { ends[0][i] + (ends[1][i] - ends[0][i]) * share })
+            };
+            let length_m = f64::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+            let (start, end) = (narrower_m / length_m, 1.0 - narrower_m / length_m);
+            let side = json!({"name": format!("side_{k}"), "corners": [at(0.0, 0.2), at(1.0, 0.2), at(1.0, 0.0), at(0.0, 0.0)]});
+            let top = 0.2 + lengths_m[k];
+            let along: [f64; 3] =
+                std::array::from_fn(|i| if i == 2 { 0.0 } else { (ends[1][i] - ends[0][i]) / length_m });
+            let flap = json!({
+                "name": format!("flap_{k}"), "side": format!("side_{k}"), "standing": "seen", "origin": at(0.5, 0.2), "axis": along,
+                "position_rad": std::f64::consts::FRAC_PI_2, "corners": [at(start, 0.2), at(end, 0.2), at(end, top), at(start, top)],
+            });
+            sides.push(side);
+            flaps.push(flap);
+        }
+        let told = json!({"thickness_m": THICKNESS_M, "fixed": sides, "flaps": flaps, "support": null});
+        serde_json::from_value::<MeasuredBox>(told).unwrap().into_problem().unwrap()
+    }
+
+    #[test]
+    fn flaps_overlap_as_their_lengths_have_it() {
+        let (short, long) = (carton(0.004, [0.1; 4]), carton(0.004, [0.16, 0.1, 0.16, 0.1]));
+        let counted = (0..4).flat_map(|a| (0..4).filter(move |&b| b != a).map(move |b| (a, b))).filter(|&(a, b)| {
+            let neighbours = (a + b) % 2 == 1;
+            assert_eq!(are_opposite(&short.flaps[a], &short.flaps[b]), !neighbours);
+            assert_eq!(overlap_closed(&short.flaps[a], &short.flaps[b]), neighbours, "{a} {b}");
+            // Two of 0.16 m meet over a box of 0.3 m, two of 0.1 m over one of 0.4 m do not.
+            assert_eq!(overlap_closed(&long.flaps[a], &long.flaps[b]), neighbours || a % 2 == 0, "{a} {b}");
+            true
+        });
+        assert_eq!(counted.count(), 12);
+    }
+
+    #[test]
+    fn rims_stop_flaps_that_are_wider_than_the_opening() {
+        let settings = PlanningSettings::default();
+        let counted = [(0.0, true), (0.001, true), (0.004, false)].map(|(narrower_m, stops)| {
+            let carton = carton(narrower_m, [0.1; 4]);
+            for flap in 0..4 {
+                assert_eq!(stopped_by_rims(&carton, flap, -0.15, &settings), stops, "{narrower_m} {flap}");
+            }
+            // One that reaches the side across from it lies on that.
+            assert!(stopped_by_rims(&self::carton(narrower_m, [0.3; 4]), 0, -0.05, &settings));
+        });
+        assert_eq!(counted.len(), 3);
+    }
+
+    #[test]
+    fn a_flap_does_not_come_down_steeply_on_the_end_of_one_that_sprang_up() {
+        let settings = PlanningSettings::default();
+        let carton = carton(0.004, [0.2; 4]);
+        let upright = std::f64::consts::FRAC_PI_2;
+        let meets = |neighbour_rad: f64| met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings);
+        assert!(meets(0.05).is_none());
+        let Some(Obstacle::Boards { other, .. }) = meets(0.255) else { panic!("it jams") };
+        assert_eq!(other, "flap_1");
     }
 }
