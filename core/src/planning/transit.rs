@@ -31,12 +31,20 @@ impl<G: Guard> Transit<'_, G> {
     /// Postures from one to the other, the straight lines between which are clear; None where no way was found.
     pub fn way(&self, from: &JointPositions, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
         // Fine steps take long and are seldom needed: a way found with coarse ones is looked at again with fine ones.
-        FINER.into_iter().find_map(|finer| {
-            let search = Self { step_rad: self.step_rad / finer, ..*self };
-            let way = search.any_way(from, to, via)?;
-            let fine = Self { step_rad: self.step_rad / FINER[FINER.len() - 1], ..*self };
-            way.windows(2).all(|pair| fine.is_clear(&pair[0], &pair[1])).then_some(way)
-        })
+        FINER
+            .into_iter()
+            .find_map(|finer| {
+                let search = Self { step_rad: self.step_rad / finer, ..*self };
+                let way = search.any_way(from, to, via)?;
+                let fine = Self { step_rad: self.step_rad / FINER[FINER.len() - 1], ..*self };
+                way.windows(2).all(|pair| fine.is_clear(&pair[0], &pair[1])).then_some(way)
+            })
+            .map(|mut way| {
+                // Leaving out nodes that are one but for rounding may have left out an end.
+                let last = way.len() - 1;
+                (way[0], way[last]) = (*from, *to);
+                way
+            })
     }
 
     fn any_way(&self, from: &JointPositions, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
