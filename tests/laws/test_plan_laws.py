@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import msgspec
@@ -18,8 +19,11 @@ from support.repository import PACKAGE
 
 ROBOT = "viper_s850"
 ROBOT_FILE = PACKAGE / "robots" / "data" / f"{ROBOT}.toml"
-NUMBERS = (1, 3, 5, 8, 9, 16, 25, 29)
+FEW = (1, 3, 5, 8, 9, 16, 25, 29)
 """Cartons, cake boxes and pizza boxes of the set, small and large."""
+MANY = os.environ.get("BOXWRIGHT_PLAN_LAWS")
+"""FIRST,LAST: those problems of the set instead, at two seconds each."""
+NUMBERS = tuple(range(*(int(number) for number in MANY.split(",")))) if MANY else FEW
 
 CLEARANCE_M = 0.005
 ROUNDING = 1e-6
