@@ -34,7 +34,7 @@ pub fn met(
         .flaps
         .iter()
         .enumerate()
-        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] > settings.closed_rad)
+        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] > settings.lying_rad)
         .flat_map(|(k, other)| {
             let tucks = other.tuck_corners(angles_rad[k]);
             std::iter::once((other.name.as_str(), other.corners(angles_rad[k]))).chain(tucks)
@@ -44,7 +44,7 @@ pub fn met(
         .flaps
         .iter()
         .enumerate()
-        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] <= settings.closed_rad)
+        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] <= settings.lying_rad)
         .map(|(k, other)| (other.name.as_str(), shrunk(&other.corners(angles_rad[k]), GIVING_END_M)))
         .collect();
     let from_rad = angles_rad[flap];

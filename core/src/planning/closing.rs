@@ -170,7 +170,7 @@ impl<G: Guard> Closer<'_, G> {
         let is_below = |k: &usize| {
             *k != flap
                 && flaps[*k].standing != Standing::Absent
-                && moment.angles_rad[*k].abs() <= settings.closed_rad
+                && moment.angles_rad[*k].abs() <= settings.lying_rad
                 && overlap_closed(&flaps[flap], &flaps[*k])
         };
         let below: Vec<usize> = (0..flaps.len()).filter(is_below).collect();

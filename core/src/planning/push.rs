@@ -106,7 +106,7 @@ impl<G: Guard> Pusher<'_, G> {
     pub fn pressed(&self) -> Moment {
         let mut pressed = self.moment.clone();
         for (flap, angle_rad) in pressed.angles_rad.iter_mut().enumerate() {
-            if flap != self.flap && angle_rad.abs() <= self.settings.closed_rad {
+            if flap != self.flap && angle_rad.abs() <= self.settings.lying_rad {
                 *angle_rad = angle_rad.min(self.hold_rad - self.settings.under_rad);
             }
         }

@@ -12,6 +12,8 @@ pub struct PlanningSettings {
     pub search_margin_m: f64,
     /// A flap within this of 0 is closed.
     pub closed_rad: f64,
+    /// A flap below this lies more than it stands: others come down on it, and it gives way.
+    pub lying_rad: f64,
     /// Where a flap is to rest when it has sprung back: it is pushed beyond closed by what its crease gives back less this, at most
     /// by so much (a flap below -15 degrees counts as pushed in).
     pub rest_aim_rad: f64,
@@ -82,6 +84,7 @@ impl Default for PlanningSettings {
             clearance_m: 0.005,
             search_margin_m: 0.0015,
             closed_rad: 15f64.to_radians(),
+            lying_rad: 25f64.to_radians(),
             rest_aim_rad: 3f64.to_radians(),
             most_overclose_rad: 13f64.to_radians(),
             short_on_others_rad: 0.3f64.to_radians(),
