@@ -94,6 +94,7 @@ pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
     let seen = |wanted: &dyn Fn(Role) -> bool| {
         found.labels.parts.iter().filter(|(role, points)| wanted(*role) && !points.is_empty()).count() as f64
     };
+    let each = (found.labels.stride * found.labels.stride) as u32;
     // The base's segment is often the floor's.
     let panels = found.labels.parts.iter().filter(|(role, _)| *role != Role::Base);
     let flaps = panels.clone().filter(|(role, points)| matches!(role, Role::Flap(_)) && !points.is_empty());
@@ -124,7 +125,7 @@ pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
         ("shorter_edge", shorter_edge),
         ("height", height),
         ("slimness", (l.max(w) / l.min(w).max(0.01)).ln()),
-        ("held", owners.held(panels.flat_map(|(_, points)| points))),
+        ("held", owners.held(panels.flat_map(|(_, points)| points), each)),
         ("flaps_go_on", go_on / flaps_seen.max(1.0)),
         ("hidden_and_closed", walls_hidden * closed_over),
         ("flaps_and_inside", flaps_seen * some(looked_inside)),
@@ -166,7 +167,7 @@ pub fn of_part(
         ("length", beyond(length)),
         ("is_inner", of(evidence.is_inner)),
         ("few_and_hidden", share(hidden, met + through) / (1.0 + readings.len() as f64 / UNIT)),
-        ("held", if role == Role::Base { 1.0 } else { owners.held(readings.iter()) }),
+        ("held", if role == Role::Base { 1.0 } else { owners.held(readings.iter(), 1) }),
         ("goes_on", goes_on(sight, body, &found.present, role)),
     ]
 }

@@ -23,6 +23,8 @@ pub struct FoundBox {
     pub labels: Labels,
     pub evidence: Vec<(Role, Evidence)>,
     pub score: f64,
+    /// That it is a box at all, while boxes compete; 1 where nobody judges.
+    pub probability: f64,
     /// The given size that comes nearest; of a finished box, the one that it has.
     pub size: Option<SizeMatch>,
     pub features: Features,
@@ -135,5 +137,15 @@ fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize) -> 
     let look = |role: Role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M));
     let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(look).collect();
     let score = score(sight, &solution.body, &labels, &evidence);
-    FoundBox { solution, present, labels, evidence, score, size: None, features: Vec::new(), part_features: Vec::new() }
+    FoundBox {
+        solution,
+        present,
+        labels,
+        evidence,
+        score,
+        probability: 1.0,
+        size: None,
+        features: Vec::new(),
+        part_features: Vec::new(),
+    }
 }

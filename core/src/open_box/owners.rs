@@ -22,16 +22,18 @@ impl Owners {
         Self { segment_of, readings_of }
     }
 
-    /// Of the segments that these readings belong to, the share that they hold; weighed by readings, 1 where they belong to none.
-    pub fn held<'a>(&self, readings: impl Iterator<Item = &'a u32>) -> f64 {
+    /// Of the segments that these readings belong to, the share that they hold, each standing for `each`; weighed by
+    /// readings, 1 where they belong to none.
+    pub fn held<'a>(&self, readings: impl Iterator<Item = &'a u32>, each: u32) -> f64 {
         let mut counts = vec![0_u32; self.readings_of.len()];
         for &reading in readings {
             if let Some(count) = counts.get_mut(usize::from(self.segment_of[reading as usize])) {
-                *count += 1;
+                *count += each;
             }
         }
         let total: u32 = counts.iter().sum();
-        let share = |(count, all): (&u32, &u32)| f64::from(*count) * f64::from(*count) / f64::from((*all).max(1));
+        let share =
+            |(count, all): (&u32, &u32)| f64::from(*count) * f64::from((*count).min(*all)) / f64::from((*all).max(1));
         let held: f64 = counts.iter().zip(&self.readings_of).map(share).sum();
         if total == 0 {
             1.0
