@@ -72,3 +72,45 @@ fn hinges(patch: &Patch, axis: &Vec3, up: &Vec3, ends: [f64; 2], low: f64) -> Ve
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sheet that leaves a hinge along y at x = 0, z = 0.05 under an angle from the level.
+    fn lid(angle_rad: f64) -> Patch {
+        let way = Vec3::new(angle_rad.cos(), 0.0, angle_rad.sin());
+        let corner = |along: f64, away: f64| Vec3::new(0.0, along, 0.05) + way * away;
+        let normal = Vec3::new(-angle_rad.sin(), 0.0, angle_rad.cos());
+        let hull = vec![corner(-0.15, 0.0), corner(0.15, 0.0), corner(0.15, 0.3), corner(-0.15, 0.3)];
+        Patch { normal, distance_m: normal.z * 0.05, hull, readings: 9000.0 }
+    }
+
+    fn proposed(patch: Patch) -> Vec<Proposal> {
+        of_lids(&[patch], &[Vec3::x(), Vec3::y(), Vec3::z()], 0.0)
+    }
+
+    #[test]
+    fn a_lid_hangs_on_one_of_its_edges() {
+        for angle_deg in [20.0_f64, 60.0, 90.0, 120.0, 150.0] {
+            let all = proposed(lid(angle_deg.to_radians()));
+            let is_box = |p: &&Proposal| {
+                let [x, y] = p.spans;
+                let ends = if angle_deg <= 90.0 { x[0].abs() } else { x[0].abs().min(x[1].abs()) };
+                ends < 1e-9
+                    && (y[1] - y[0] - 0.3).abs() < 1e-9
+                    && (p.heights[1] - 0.05).abs() < 1e-9
+                    && (x[1] - x[0] - 0.3).abs() < 0.012
+            };
+            assert!(all.iter().any(|p| is_box(&p)), "{angle_deg}: {all:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_small_or_runs_askew_is_no_lid() {
+        let few = Patch { readings: 300.0, ..lid(1.0) };
+        assert!(proposed(few).is_empty());
+        let askew = of_lids(&[lid(1.0)], &[Vec3::x(), Vec3::y(), Vec3::z()], 0.6);
+        assert!(askew.is_empty());
+    }
+}

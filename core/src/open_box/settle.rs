@@ -43,3 +43,41 @@ pub fn lowest_m(body: &FittedBody) -> f64 {
     let corners = [[-l, -w], [l, -w], [l, w], [-l, w]];
     corners.iter().map(|[x, y]| body.to_input(&Vec3::new(*x, *y, 0.0)).z).fold(f64::INFINITY, f64::min)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::Parameters;
+    use nalgebra::Isometry3;
+
+    fn body(z_m: f64, lean_rad: f64) -> FittedBody {
+        let mut numbers = Parameters::zeros();
+        (numbers[layout::LENGTH], numbers[layout::WIDTH], numbers[layout::HEIGHT]) = (0.4, 0.3, 0.2);
+        let input_from_object = Isometry3::new(Vec3::new(0.1, 0.2, z_m), Vec3::x() * lean_rad);
+        FittedBody { input_from_object, numbers }
+    }
+
+    fn rim(body: &FittedBody) -> Vec3 {
+        body.to_input(&(Vec3::z() * body.get(layout::HEIGHT)))
+    }
+
+    #[test]
+    fn what_stands_stays() {
+        for (z_m, lean_rad) in [(0.0, 0.0), (0.05, 0.0), (0.03, 0.15), (-0.004, 0.0)] {
+            let given = body(z_m, lean_rad);
+            assert_eq!(settled(&given), given);
+        }
+    }
+
+    #[test]
+    fn what_sinks_is_cut_off_and_its_rim_stays() {
+        for (z_m, lean_rad) in [(-0.05, 0.0), (-0.03, 0.02), (0.0, 0.1), (-0.02, 0.2)] {
+            let given = body(z_m, lean_rad);
+            let out = settled(&given);
+            assert!(lowest_m(&out).abs() < 1e-12, "{z_m} {lean_rad}: {}", lowest_m(&out));
+            assert!((rim(&out) - rim(&given)).norm() < 1e-12);
+            assert!(out.get(layout::HEIGHT) < given.get(layout::HEIGHT));
+            assert!(is_sunk(&given) && !is_sunk(&out));
+        }
+    }
+}
