@@ -15,7 +15,8 @@ from boxwright.simulation.boxes import OpenBox
 from boxwright.simulation.clearance import free_flaps
 from boxwright.simulation.kinds import KINDS, draw_box
 from boxwright.simulation.panels import Panel, build_panels, outline
-from boxwright.simulation.poses import apply, standing
+from boxwright.simulation.poses import apply, inverse, standing
+from boxwright.simulation.views import look_at
 from boxwright.types import Inference, Joint, Model, Object, Part, Pose, Seconds, Source, SupportPlane
 
 Array = NDArray[np.float64]
@@ -31,6 +32,11 @@ CLEAR_OF_J1_M = 0.22
 FLAPS_CLEAR_OF_J1_M = 0.16
 """Between the J1 axis and any flap: the arm's own base stands there."""
 TRIES = 400
+
+ELEVATION_DEG = (45.0, 65.0)
+BESIDE_ROBOT_DEG = 60.0
+"""The camera looks over the robot's shoulder: this far to either side of the line from box to robot, at most."""
+DISTANCE_M = (0.9, 1.2)
 
 
 @dataclass(frozen=True)
@@ -57,6 +63,17 @@ def draw_problem(number: int, seed: int = SEED) -> Problem:
         if box is not None and base_from_box is not None:
             return Problem(number, category, box.variant, true_model(box, base_from_box, f"problem_{number:03d}"))
     raise RuntimeError(f"problem {number}: no {category} box stood clear of the arm in {TRIES} draws")
+
+
+def camera_pose(problem: Problem) -> Array:
+    """base_from_input (4, 4) of a camera that looks at the box's middle, drawn by the problem's number."""
+    rng = np.random.default_rng([SEED, problem.number, 1])
+    corners = np.concatenate([np.array(part.corners) for part in problem.box.parts if part.corners is not None])
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
+    azimuth_rad = np.arctan2(-middle[1], -middle[0]) + np.radians(rng.uniform(-BESIDE_ROBOT_DEG, BESIDE_ROBOT_DEG))
+    elevation_rad, distance_m = np.radians(rng.uniform(*ELEVATION_DEG)), rng.uniform(*DISTANCE_M)
+    spread_m = float(np.linalg.norm(corners.max(axis=0) - corners.min(axis=0)))
+    return inverse(look_at(middle, azimuth_rad, elevation_rad, distance_m + spread_m / 2.0, 0.0))
 
 
 def _open_box(rng: np.random.Generator, category: str) -> OpenBox | None:

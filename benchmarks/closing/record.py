@@ -1,95 +1,76 @@
-"""What became of one problem: its plans and their runs in physics, as one file, so that a set can be run in pieces."""
+"""What became of one problem by one way and one class of creases, as one file, so that a set can be run in pieces."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import msgspec
-import numpy as np
-from benchmarks.closing.problems import Problem, draw_problem
 
-from boxwright.planning import plan_closing
-from boxwright.simulation.physics import simulate
-from boxwright.types import Simulation
-
-ROBOT = "viper_s850"
-METHODS = ("layered", "paper")
+WAYS = ("layered", "paper", "seen", "looking")
+"""Planners on true models; ours on models inferred from a simulated frame, at one go and with looks between flaps."""
 CREASES = ("pre_broken", "ordinary", "stiff")
-REACHED_RAD = math.radians(2.0)
-"""A servo brings a flap this near to 0 where the plan pushes it to 0 or beyond."""
+
+Made = TypeVar("Made", bound=msgspec.Struct)
 
 
 class FlapRecord(msgspec.Struct, frozen=True):
-    """A flap under one planner: its status, and by crease class whether physics closed it while pushed, and held it."""
+    """An open flap: its status, whether it was at 0 while it was pushed, and closed at the end of all."""
 
     name: str
     farthest: bool
     status: str
-    feasible: bool | None
-    """As brute force has it; a plan proves it too. None where it was not asked."""
-    reached: dict[str, bool]
-    held: dict[str, bool]
+    reached: bool
+    held: bool
 
 
 class Record(msgspec.Struct, frozen=True):
-    """One problem under one planner."""
+    """One problem by one way with one class of creases."""
 
     number: int
     category: str
-    method: str
-    seconds: float
+    way: str
+    crease: str
     flaps: tuple[FlapRecord, ...]
-    failures: dict[str, str]
-    """Runs in physics that prove nothing, by crease class."""
+    planning_s: float
+    failure: str | None
+    """Why the run proves nothing."""
+    most_force_n: float
+    slid_m: float
+    unwanted: int
+    """Pairs that touched and should not have."""
 
 
-def measure(problem: Problem, method: str, creases: Sequence[str], feasible: dict[str, bool] | None = None) -> Record:
-    """Plans and simulates; the slowest part is physics."""
-    plan = plan_closing(problem.model, ROBOT, np.eye(4), method=method)
-    runs = {crease: simulate(plan, problem.model, crease=crease).simulation for crease in creases if plan.segments}
-    farthest = _farthest(problem)
-    flaps = tuple(
-        FlapRecord(
-            name=name,
-            farthest=name == farthest,
-            status=outcome.status,
-            feasible=True if outcome.status == "planned" else (feasible or {}).get(name),
-            reached={crease: _reached(run, name) for crease, run in runs.items()},
-            held={
-                crease: run.failure is None and name in run.flaps and run.flaps[name].held
-                for crease, run in runs.items()
-            },
-        )
-        for name, outcome in plan.flaps.items()
-        if outcome.status not in ("absent", "hidden")
-    )
-    failures = {crease: run.failure for crease, run in runs.items() if run.failure is not None}
-    return Record(problem.number, problem.category, method, plan.seconds, flaps, failures)
+class Limits(msgspec.Struct, frozen=True):
+    """What can be asked of a problem's open flaps at all, each by itself, the others where they stand."""
+
+    number: int
+    feasible: dict[str, bool]
+    """Brute force finds a motion; only of flaps that no way planned, since a plan proves it too."""
+    bearable: dict[str, dict[str, bool]]
+    """By class of creases: the box stands being pushed so hard."""
 
 
-def records(folder: Path, numbers: Sequence[int], methods: Sequence[str], creases: Sequence[str]) -> list[Record]:
-    """Those of the folder, and those that it lacks, which are measured and kept there."""
-    folder.mkdir(parents=True, exist_ok=True)
-    found = []
-    for number in numbers:
-        for method in methods:
-            path = folder / f"{number:03d}_{method}.json"
-            if not path.is_file():
-                record = measure(draw_problem(number), method, creases)
-                path.write_bytes(msgspec.json.encode(record))
-            found.append(msgspec.json.decode(path.read_bytes(), type=Record))
-    return found
+def kept(path: Path, kind: type[Made], make: Callable[[], Made]) -> Made:
+    """What the file holds; made and written first where there is none."""
+    if not path.is_file():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(msgspec.json.encode(make()))
+    return msgspec.json.decode(path.read_bytes(), type=kind)
 
 
-def _farthest(problem: Problem) -> str:
-    """The flap whose hinge's middle is farthest from the J1 axis."""
-    hinges = [joint for joint in problem.box.joints if joint.name.startswith("flap")]
-    return max(hinges, key=lambda joint: float(np.hypot(joint.origin[0], joint.origin[1]))).name
+def record_path(folder: Path, number: int, way: str, crease: str) -> Path:
+    """Where a record is."""
+    return folder / f"{number:03d}_{way}_{crease}.json"
 
 
-def _reached(run: Simulation, name: str) -> bool:
-    """Was it at 0, or beyond, while it was pushed?"""
-    flap = run.flaps.get(name)
-    return flap is not None and flap.pushed_to_rad is not None and flap.pushed_to_rad <= REACHED_RAD
+def limits_path(folder: Path, number: int) -> Path:
+    """Where the limits of a problem are."""
+    return folder / f"{number:03d}_limits.json"
+
+
+def read_records(folder: Path, numbers: Sequence[int], ways: Sequence[str], creases: Sequence[str]) -> list[Record]:
+    """Those of the folder."""
+    paths = [record_path(folder, number, way, crease) for number in numbers for way in ways for crease in creases]
+    return [msgspec.json.decode(path.read_bytes(), type=Record) for path in paths if path.is_file()]

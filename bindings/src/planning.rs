@@ -24,6 +24,12 @@ fn feasible_flaps(py: Python<'_>, robot: &str, request: &str) -> PyResult<Vec<(S
     py.detach(|| Request::from_json(request)?.feasible(&Arm::from_toml(robot)?)).map_err(to_python)
 }
 
+/// A request as above: for each open flap, by name, whether the box, as its folds and weight are assumed, stands its closing.
+#[pyfunction]
+fn bearable_flaps(py: Python<'_>, request: &str) -> PyResult<Vec<(String, bool)>> {
+    py.detach(|| Request::from_json(request)?.bearable()).map_err(to_python)
+}
+
 /// Row by row.
 type Rows = Vec<Vec<f64>>;
 
@@ -54,6 +60,7 @@ fn time_way(
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(time_way, m)?)?;
+    m.add_function(wrap_pyfunction!(bearable_flaps, m)?)?;
     m.add_function(wrap_pyfunction!(feasible_flaps, m)?)?;
     m.add_function(wrap_pyfunction!(plan_closing, m)?)
 }

@@ -438,6 +438,9 @@ def plan_closing(robot: str, request: str) -> str:
 def feasible_flaps(robot: str, request: str) -> list[tuple[str, bool]]:
     """For each open flap, by name: can brute force close it by itself, all others as they are? Takes minutes."""
 
+def bearable_flaps(request: str) -> list[tuple[str, bool]]:
+    """For each open flap, by name: does the box, as its folds and weight are assumed, stand its closing?"""
+
 def time_way(
     way: NDArray[np.float64], speeds: list[float], accelerations: list[float], period_s: float
 ) -> tuple[list[float], list[list[float]], list[list[float]]]:

@@ -16,7 +16,7 @@ LAYERS = (
     ("perception", "models", "kinematics"),
     ("evaluation", "robots"),
     ("learning", "planning"),
-    ("segmentation",),
+    ("segmentation", "replanning"),
     ("pipeline",),
     ("answers", "scoring", "kinds", "labelling", "runner_up"),
     ("figures",),

@@ -75,6 +75,7 @@ REFUSED = [
     ("below the floor", ("--robot", "viper_s850"), {"orientation": [1.0, 0.0, 0.0, 0.0]}, 1, "below the floor"),
     ("base inside the box", ("--robot", "viper_s850"), {"position": [-0.48, 0.33, 0.08]}, 1, "stands inside"),
     ("no unit quaternion", ("--robot", "viper_s850"), {"orientation": [0, 0, 0, 2]}, 1, "pose.json: "),
+    ("unknown crease", ("--robot", "viper_s850", "--crease", "soft"), {}, 1, "pre_broken, ordinary, stiff"),
     ("no such object", ("--robot", "viper_s850", "--object", "3"), {}, 1, "object 3 is not in the model"),
 ]
 
@@ -87,6 +88,20 @@ def test_what_cannot_be_used_is_one_line(
     assert run.status == status, run.err
     assert said in run.err
     assert len(run.err.strip().splitlines()) == 1, run.err
+
+
+def test_the_class_of_creases_decides_how_far_a_flap_is_pushed(tmp_path: Path) -> None:
+    folder = tmp_path / "box"
+    folder.mkdir()
+    save_model(draw_problem(3).model, folder / "model.json")
+    last_rad = {}
+    for crease in ("pre_broken", "ordinary"):
+        run = _plan(folder, "--robot", "viper_s850", "--camera-pose", str(_pose(folder)), "--crease", crease)
+        assert run.status in (0, 3), run.err
+        plan = load_plan(folder / "plan" / "plan.json")
+        pushes = [segment.hinge_angle_rad for segment in plan.segments if segment.hinge_angle_rad is not None]
+        last_rad[crease] = min(angles[-1] for angles in pushes)
+    assert last_rad["ordinary"] < last_rad["pre_broken"] < 0.0
 
 
 def test_a_model_without_flaps_is_refused(model_dir: Path) -> None:

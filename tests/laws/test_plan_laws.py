@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import msgspec
@@ -18,11 +19,13 @@ from support.repository import PACKAGE
 
 ROBOT = "viper_s850"
 ROBOT_FILE = PACKAGE / "robots" / "data" / f"{ROBOT}.toml"
-NUMBERS = (1, 3, 5, 8, 9, 16, 25, 29)
+FEW = (1, 3, 5, 8, 9, 16, 25, 29)
 """Cartons, cake boxes and pizza boxes of the set, small and large."""
+MANY = os.environ.get("BOXWRIGHT_PLAN_LAWS")
+"""FIRST,LAST: those problems of the set instead, at two seconds each."""
+NUMBERS = tuple(range(*(int(number) for number in MANY.split(",")))) if MANY else FEW
 
 CLEARANCE_M = 0.005
-REST_RAD = np.radians(4.0)
 ROUNDING = 1e-6
 
 
@@ -51,7 +54,7 @@ def test_speeds_accelerations_and_limits_hold_every_millisecond(plans: list[tupl
 def test_clearances_hold_every_millisecond(plans: list[tuple[Problem, Plan]]) -> None:
     segments = fingers = 0
     for problem, plan in plans:
-        for what, least_m in Clearances(problem.model, ROBOT_FILE, REST_RAD).of_plan(plan):
+        for what, least_m in Clearances(problem.model, ROBOT_FILE).of_plan(plan):
             if what == "finger":
                 fingers += 1
                 assert least_m >= -ROUNDING, f"problem {problem.number}: a finger is {-1e3 * least_m:.3f} mm in a flap"
@@ -72,7 +75,7 @@ def test_the_arm_begins_and_ends_ready_and_closes_in_order(plans: list[tuple[Pro
         for segment in pushed:
             assert segment.hinge_angle_rad is not None
             assert (np.diff(segment.hinge_angle_rad) < 1e-9).all(), "a flap is pushed inward only"
-            assert -np.radians(15.0) < segment.hinge_angle_rad[-1] < np.radians(2.0)
+            assert -np.radians(13.0) - ROUNDING < segment.hinge_angle_rad[-1] < np.radians(3.0)
         pushes += len(pushed)
     assert pushes > 15
 

@@ -71,31 +71,30 @@ def coal_rotation(axis: Array, angle_rad: float) -> Array:
 class Clearances:
     """Least distances between an arm and a model's boards, as a plan goes along."""
 
-    def __init__(self, model: Model, robot: Path, rest_rad: float) -> None:
+    def __init__(self, model: Model, robot: Path) -> None:
         self.box = model.objects[0]
         self.robot = robot
-        self.rest_rad = rest_rad
         self.support_m = None if model.support_plane is None else model.support_plane.distance
         self.joints = {joint.child: joint for joint in self.box.joints if not joint.child.startswith("tuck")}
 
     def of_plan(self, plan: Plan) -> list[tuple[str, float]]:
         """For each segment the least distance of any body to anything, and of the fingers to the pushed flap apart."""
-        closed: set[str] = set()
+        closed: dict[str, float] = {}
         found = []
         for segment in plan.segments:
             found += self._of_segment(segment, closed)
             if segment.kind == "push" and segment.flap is not None:
-                closed.add(segment.flap)
+                closed[segment.flap] = plan.flaps[segment.flap].rest_rad or 0.0
         return found
 
-    def _of_segment(self, segment: PlanSegment, closed: set[str]) -> list[tuple[str, float]]:
+    def _of_segment(self, segment: PlanSegment, closed: dict[str, float]) -> list[tuple[str, float]]:
         moves = dense(segment)
         shapes = arm_shapes(self.robot, moves.positions, segment.gripper_opening_m)
         still = [np.array(part.corners) for part in self.box.parts if part.name not in self.joints and part.corners]
         still = [corners for corners, part in zip(still, self._fixed(), strict=True) if part]
         # Flaps that are closed give way to what is pushed onto them: only the arm in free space is held against them.
         others = [
-            turned(self.box.part(name), joint, self.rest_rad if name in closed else joint.position)
+            turned(self.box.part(name), joint, closed.get(name, joint.position))
             for name, joint in self.joints.items()
             if name != segment.flap and not (name in closed and segment.kind != "transit")
         ]

@@ -37,6 +37,7 @@ pub struct FlapAnswer {
     pub status: &'static str,
     pub reason: Option<String>,
     pub seconds: f64,
+    pub rest_rad: Option<f64>,
 }
 
 /// What plan.json says of the motion.
@@ -116,6 +117,7 @@ pub fn timed(closing: &Closing, arm: &Arm, problem: &BoxProblem, settings: &Plan
         status: outcome.status.name(),
         reason: (!outcome.reason.is_empty()).then(|| outcome.reason.clone()),
         seconds: outcome.seconds,
+        rest_rad: outcome.rest_rad,
     });
     Answer {
         robot: arm.name.clone(),
@@ -156,8 +158,11 @@ fn segment(piece: &Piece, arm: &Arm, problem: &BoxProblem, settings: &PlanningSe
     let mut now_s = start_s;
     for (first, last) in legs(&piece.positions) {
         let way = &piece.positions[first..=last];
-        let cap =
-            |place: f64| if is_push { speed_cap(piece, &lengths, place, settings).powi(2) } else { f64::INFINITY };
+        // A leg's places begin at 0; those of the piece where the leg begins.
+        let cap = |place: f64| match is_push {
+            true => speed_cap(piece, &lengths, lengths[first] + place, settings).powi(2),
+            false => f64::INFINITY,
+        };
         let Some(leg) = time(way, &bounds, settings.period_s, cap) else { continue };
         segment.add(&leg, now_s, piece, &lengths, (lengths[first], lengths[last]));
         now_s += leg.duration_s();

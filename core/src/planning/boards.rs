@@ -4,6 +4,7 @@ use super::flap::Flap;
 use super::problem::BoxProblem;
 use super::reason::Obstacle;
 use super::settings::PlanningSettings;
+use crate::collision::{clear_by, OrientedBox, Solid};
 use crate::geometry::Vec3;
 
 /// The moving board is taken to be this much smaller all round: boards that only graze are given way by the folds, and models err
@@ -11,12 +12,16 @@ use crate::geometry::Vec3;
 const GRAZE_M: f64 = 0.006;
 /// Between two angles at which boards are held against each other.
 const STEP_RAD: f64 = 0.06;
+/// The ends of a flap that has sprung up give way by this much to one that comes down beside them. Steeper than this it presses them
+/// aside rather than down: board on board has friction, and cannot slide where its tangent is steeper than 1 / friction.
+const GIVING_END_M: f64 = 0.015;
+const JAM_RAD: f64 = 1.15;
 /// Boards that meet this soon after the start met there already, by the model's error.
 const START_RAD: f64 = 0.09;
 
 /// The first board that a flap meets on its way to an angle, while the others stand at `angles_rad`; None where the way is free.
 ///
-/// It may come to lie on flaps that are closed. Its own side and what hangs on itself do not count.
+/// It may come to lie on flaps that are closed, unless they have sprung up so far that it meets their ends where it is steep. Its own side and what hangs on itself do not count.
 pub fn met(
     problem: &BoxProblem,
     angles_rad: &[f64],
@@ -29,11 +34,18 @@ pub fn met(
         .flaps
         .iter()
         .enumerate()
-        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] > settings.closed_rad)
+        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] > settings.lying_rad)
         .flat_map(|(k, other)| {
             let tucks = other.tuck_corners(angles_rad[k]);
             std::iter::once((other.name.as_str(), other.corners(angles_rad[k]))).chain(tucks)
         })
+        .collect();
+    let down: Vec<(&str, [Vec3; 4])> = problem
+        .flaps
+        .iter()
+        .enumerate()
+        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] <= settings.lying_rad)
+        .map(|(k, other)| (other.name.as_str(), shrunk(&other.corners(angles_rad[k]), GIVING_END_M)))
         .collect();
     let from_rad = angles_rad[flap];
     let steps = ((from_rad - to_rad).abs() / STEP_RAD).ceil().max(1.0) as usize;
@@ -42,8 +54,9 @@ pub fn met(
         if (from_rad - angle_rad).abs() < START_RAD {
             continue;
         }
-        let board = shrunk(&moving.corners(angle_rad));
-        if let Some((name, _)) = others.iter().find(|(_, other)| quads_cross(&board, other)) {
+        let board = shrunk(&moving.corners(angle_rad), GRAZE_M);
+        let jams = down.iter().filter(|_| angle_rad > JAM_RAD);
+        if let Some((name, _)) = others.iter().chain(jams).find(|(_, other)| quads_cross(&board, other)) {
             return Some(Obstacle::Boards { flap: moving.name.clone(), other: (*name).to_string() });
         }
     }
@@ -54,14 +67,57 @@ fn has_extent(flap: &Flap) -> bool {
     flap.standing != super::flap::Standing::Absent && flap.length_m() > 0.0
 }
 
-/// A quadrilateral with each corner moved in along both of its edges.
-fn shrunk(corners: &[Vec3; 4]) -> [Vec3; 4] {
+/// A quadrilateral with each corner moved in by so much along both of its edges.
+fn shrunk(corners: &[Vec3; 4], by_m: f64) -> [Vec3; 4] {
     std::array::from_fn(|k| {
         let toward = |other: &Vec3| {
             let edge = other - corners[k];
-            edge * (GRAZE_M / edge.norm().max(2.0 * GRAZE_M))
+            edge * (by_m / edge.norm().max(2.0 * by_m))
         };
         corners[k] + toward(&corners[(k + 1) % 4]) + toward(&corners[(k + 3) % 4])
+    })
+}
+
+/// Do two flaps hang on sides across from one another?
+pub fn are_opposite(a: &Flap, b: &Flap) -> bool {
+    matches!((a.number(), b.number()), (Some(p), Some(q)) if p % 2 == q % 2 && p != q)
+}
+
+/// Would two flaps lie over one another when both are closed? What only meets at a corner does.
+pub fn overlap_closed(a: &Flap, b: &Flap) -> bool {
+    let frame = a.frame(0.0);
+    let flat = |flap: &Flap| {
+        flap.corners(0.0).map(|corner| {
+            let seen = frame.coordinates(&corner);
+            [seen.x, seen.y]
+        })
+    };
+    let (p, q) = (flat(a), flat(b));
+    !parted(&p, &q) && !parted(&q, &p)
+}
+
+/// Does an edge of one convex quadrilateral have all of the other on its outer side?
+fn parted(p: &[[f64; 2]; 4], q: &[[f64; 2]; 4]) -> bool {
+    let side = |k: usize, r: &[f64; 2]| {
+        let (a, b) = (p[k], p[(k + 1) % 4]);
+        (b[0] - a[0]) * (r[1] - a[1]) - (b[1] - a[1]) * (r[0] - a[0])
+    };
+    (0..4).any(|k| {
+        let inside = side(k, &p[(k + 2) % 4]).signum();
+        q.iter().all(|r| side(k, r) * inside <= 0.0)
+    })
+}
+
+/// Would a flap that is pushed below closed come to lie on other sides than its own? Their edges end half a board short of where they
+/// are told, as what is folded there turns about the middle of its board.
+pub fn stopped_by_rims(problem: &BoxProblem, flap: usize, hold_rad: f64, settings: &PlanningSettings) -> bool {
+    let moving = &problem.flaps[flap];
+    let Some(board) = OrientedBox::of_panel(&moving.corners(hold_rad), problem.thickness_m) else { return false };
+    let sides = problem.fixed.iter().filter(|side| side.name.starts_with("side_") && side.name != moving.side);
+    sides.filter_map(|side| OrientedBox::of_panel(&side.corners, problem.thickness_m)).any(|mut side| {
+        let half_m = Vec3::new(1.0, 1.0, 0.0) * (problem.thickness_m / 2.0);
+        side.half_m = (side.half_m - half_m).sup(&Vec3::repeat(problem.thickness_m / 4.0));
+        !clear_by(&Solid::Box(board), &Solid::Box(side), settings.rim_gap_m)
     })
 }
 
@@ -86,6 +142,9 @@ fn edges_cross(a: &[Vec3; 4], b: &[Vec3; 4]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
+    use super::super::problem::MeasuredBox;
     use super::*;
 
     fn quad(corners: [[f64; 3]; 4]) -> [Vec3; 4] {
@@ -99,5 +158,73 @@ mod tests {
         assert!(quads_cross(&flat, &upright(0.5)));
         assert!(!quads_cross(&flat, &upright(1.1)));
         assert!(!quads_cross(&flat, &flat.map(|p| p + Vec3::z())));
+    }
+
+    const THICKNESS_M: f64 = 0.004;
+
+    /// A box of 0.4 by 0.3 by 0.2 m with flaps upright: so much narrower than their sides at each end, and so long.
+    fn carton(narrower_m: f64, lengths_m: [f64; 4]) -> BoxProblem {
+        let rim = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]];
+        let mut sides = Vec::new();
+        let mut flaps = Vec::new();
+        for k in 0..4 {
+            let ends = [rim[k], rim[(k + 1) % 4]];
+            let at = |share: f64, z: f64| -> [f64; 3] {
+                std::array::from_fn(|i| if i == 2 { z } else { ends[0][i] + (ends[1][i] - ends[0][i]) * share })
+            };
+            let length_m = f64::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+            let (start, end) = (narrower_m / length_m, 1.0 - narrower_m / length_m);
+            let side = json!({"name": format!("side_{k}"), "corners": [at(0.0, 0.2), at(1.0, 0.2), at(1.0, 0.0), at(0.0, 0.0)]});
+            let top = 0.2 + lengths_m[k];
+            let along: [f64; 3] =
+                std::array::from_fn(|i| if i == 2 { 0.0 } else { (ends[1][i] - ends[0][i]) / length_m });
+            let flap = json!({
+                "name": format!("flap_{k}"), "side": format!("side_{k}"), "standing": "seen", "origin": at(0.5, 0.2), "axis": along,
+                "position_rad": std::f64::consts::FRAC_PI_2, "corners": [at(start, 0.2), at(end, 0.2), at(end, top), at(start, top)],
+            });
+            sides.push(side);
+            flaps.push(flap);
+        }
+        let told = json!({"thickness_m": THICKNESS_M, "fixed": sides, "flaps": flaps, "support": null});
+        serde_json::from_value::<MeasuredBox>(told).unwrap().into_problem().unwrap()
+    }
+
+    #[test]
+    fn flaps_overlap_as_their_lengths_have_it() {
+        let (short, long) = (carton(0.004, [0.1; 4]), carton(0.004, [0.16, 0.1, 0.16, 0.1]));
+        let counted = (0..4).flat_map(|a| (0..4).filter(move |&b| b != a).map(move |b| (a, b))).filter(|&(a, b)| {
+            let neighbours = (a + b) % 2 == 1;
+            assert_eq!(are_opposite(&short.flaps[a], &short.flaps[b]), !neighbours);
+            assert_eq!(overlap_closed(&short.flaps[a], &short.flaps[b]), neighbours, "{a} {b}");
+            // Two of 0.16 m meet over a box of 0.3 m, two of 0.1 m over one of 0.4 m do not.
+            assert_eq!(overlap_closed(&long.flaps[a], &long.flaps[b]), neighbours || a % 2 == 0, "{a} {b}");
+            true
+        });
+        assert_eq!(counted.count(), 12);
+    }
+
+    #[test]
+    fn rims_stop_flaps_that_are_wider_than_the_opening() {
+        let settings = PlanningSettings::default();
+        let counted = [(0.0, true), (0.001, true), (0.004, false)].map(|(narrower_m, stops)| {
+            let carton = carton(narrower_m, [0.1; 4]);
+            for flap in 0..4 {
+                assert_eq!(stopped_by_rims(&carton, flap, -0.15, &settings), stops, "{narrower_m} {flap}");
+            }
+            // One that reaches the side across from it lies on that.
+            assert!(stopped_by_rims(&self::carton(narrower_m, [0.3; 4]), 0, -0.05, &settings));
+        });
+        assert_eq!(counted.len(), 3);
+    }
+
+    #[test]
+    fn a_flap_does_not_come_down_steeply_on_the_end_of_one_that_sprang_up() {
+        let settings = PlanningSettings::default();
+        let carton = carton(0.004, [0.2; 4]);
+        let upright = std::f64::consts::FRAC_PI_2;
+        let meets = |neighbour_rad: f64| met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings);
+        assert!(meets(0.05).is_none());
+        let Some(Obstacle::Boards { other, .. }) = meets(0.255) else { panic!("it jams") };
+        assert_eq!(other, "flap_1");
     }
 }

@@ -1,9 +1,10 @@
 //! The whole of it: which flaps, in which order, and the ways between them.
 
-use super::boards::met;
+use super::boards::{are_opposite, met, overlap_closed, stopped_by_rims};
 use super::contact::Contacts;
 use super::flap::Standing;
 use super::guard::{Guard, Moment};
+use super::load::Load;
 use super::order;
 use super::planes::PlanesSearch;
 use super::problem::BoxProblem;
@@ -52,11 +53,13 @@ pub struct Outcome {
     pub reason: String,
     /// Spent on its pushes.
     pub seconds: f64,
+    /// Where it is taken to rest after its push, where it is planned.
+    pub rest_rad: Option<f64>,
 }
 
 impl Outcome {
     pub fn new(status: Status, reason: String) -> Self {
-        Self { status, reason, seconds: 0.0 }
+        Self { status, reason, seconds: 0.0, rest_rad: None }
     }
 }
 
@@ -92,6 +95,7 @@ pub struct Closer<'a, G: Guard> {
     pub arm: &'a Arm,
     pub guard: &'a G,
     pub problem: &'a BoxProblem,
+    pub load: &'a Load,
     pub settings: &'a PlanningSettings,
     pub method: Method,
     /// The flaps to close, by name; all that are open where there are none.
@@ -120,7 +124,7 @@ impl<G: Guard> Closer<'_, G> {
         let mut way = Way { closer: self, at: *start, angles_rad, order: Vec::new(), pieces: Vec::new() };
         for (flap, push) in ordered.order.into_iter().zip(ordered.pushes) {
             outcomes[flap] = Some(match way.close(flap, push) {
-                Ok(()) => Outcome::new(Status::Planned, String::new()),
+                Ok(rest_rad) => Outcome { rest_rad: Some(rest_rad), ..Outcome::new(Status::Planned, String::new()) },
                 Err(why) => why.outcome(),
             });
         }
@@ -161,11 +165,39 @@ impl<G: Guard> Closer<'_, G> {
 
     /// How far a flap is pushed: less where it comes to lie on others or carries a tuck.
     pub fn hold_rad(&self, flap: usize, moment: &Moment) -> f64 {
-        let lies_on_others = self.problem.flaps.iter().enumerate().any(|(k, other)| {
-            k != flap && other.standing != Standing::Absent && moment.angles_rad[k].abs() <= self.settings.closed_rad
-        });
-        let carries = !self.problem.flaps[flap].tucks.is_empty();
-        -if lies_on_others || carries { self.settings.overclose_on_others_rad } else { self.settings.overclose_rad }
+        let settings = self.settings;
+        let flaps = &self.problem.flaps;
+        let is_below = |k: &usize| {
+            *k != flap
+                && flaps[*k].standing != Standing::Absent
+                && moment.angles_rad[*k].abs() <= settings.lying_rad
+                && overlap_closed(&flaps[flap], &flaps[*k])
+        };
+        let below: Vec<usize> = (0..flaps.len()).filter(is_below).collect();
+        let stacked = |&k: &usize| {
+            let lies_over =
+                |other: usize| are_opposite(&flaps[k], &flaps[other]) && overlap_closed(&flaps[k], &flaps[other]);
+            lies_over(flap) || below.iter().any(|&other| lies_over(other))
+        };
+        if below.iter().any(stacked) {
+            return settings.short_on_stacks_rad;
+        }
+        if !below.is_empty() || !flaps[flap].tucks.is_empty() {
+            return settings.short_on_others_rad;
+        }
+        let beyond_rad = self.load.folds[flap].return_rad - settings.rest_aim_rad;
+        let hold_rad = -beyond_rad.clamp(0.0, settings.most_overclose_rad);
+        if stopped_by_rims(self.problem, flap, hold_rad, settings) {
+            settings.short_on_rims_rad
+        } else {
+            hold_rad
+        }
+    }
+
+    /// Where a flap rests after a push.
+    pub fn rest_rad(&self, flap: usize, push: &PushMotion) -> f64 {
+        let hold_rad = push.hinge_rad[push.hinge_rad.len() - 1];
+        self.load.folds[flap].rest_rad(hold_rad).min(self.settings.closed_rad)
     }
 
     /// One flap's push while the others stand as they do.
@@ -178,28 +210,58 @@ impl<G: Guard> Closer<'_, G> {
         }
         let hold_rad = self.hold_rad(flap, moment);
         if let Some(obstacle) = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings) {
-            return Err(WhyNot { status: Status::Blocked, reason: obstacle.to_string(), by_flaps: true });
+            return Err(WhyNot {
+                status: Status::Blocked,
+                reason: obstacle.to_string(),
+                by_flaps: true,
+                moves_box: false,
+            });
         }
-        self.pusher(flap, moment, hold_rad).plan()
+        let most_strain = self.settings.most_strain;
+        let first = self.pusher(flap, moment, hold_rad, most_strain).plan();
+        let short_rad = self.settings.short_on_others_rad;
+        match first {
+            // Arms that cannot follow the flap beyond closed may still lay it down.
+            Err(why) if hold_rad < 0.0 => self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why),
+            tried => tried,
+        }
     }
 
-    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Pusher<'_, G> {
+    /// The same of a flap that stands so low that it closes even if the box slides a little; None where it does not.
+    pub fn push_home(&self, flap: usize, moment: &Moment) -> Option<PushMotion> {
+        let hold_rad = self.hold_rad(flap, moment);
+        let is_low = moment.angles_rad[flap] <= self.settings.slides_home_rad;
+        let meets = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings).is_some();
+        if !is_low || meets {
+            return None;
+        }
+        self.pusher(flap, moment, hold_rad, f64::INFINITY).plan().ok()
+    }
+
+    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
         let half_board_m = self.problem.thickness_m / 2.0;
         Pusher {
             arm: self.arm,
             guard: self.guard,
             settings: self.settings,
-            contacts: Contacts::new(&self.problem.flaps[flap], closed_finger(self.arm), half_board_m, self.settings),
+            contacts: Contacts::new(
+                &self.problem.flaps[flap],
+                closed_finger(self.arm),
+                half_board_m,
+                self.settings,
+                (self.load.folds[flap], self.load.stand.as_ref()),
+            ),
+            most_strain,
             flap,
             moment: moment.clone(),
             hold_rad,
-            rest_rad: self.settings.rest_rad,
+            rest_rad: self.load.folds[flap].rest_rad(hold_rad).min(self.settings.closed_rad),
         }
     }
 
     /// The paper's push, to closed and no further.
     fn paper_push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
-        let pusher = self.pusher(flap, moment, 0.0);
+        let pusher = self.pusher(flap, moment, 0.0, f64::INFINITY);
         PlanesSearch { pusher: &pusher, settings: self.settings }.plan()
     }
 }
@@ -214,15 +276,16 @@ struct Way<'a, 'b, G: Guard> {
 }
 
 impl<G: Guard> Way<'_, '_, G> {
-    /// Goes to a flap and pushes it. A flap left open before changes what the others meet: the push is planned anew where the
+    /// Goes to a flap and pushes it; where it rests then. A flap left open before changes what the others meet: the push is planned anew where the
     /// one at hand no longer holds.
-    fn close(&mut self, flap: usize, push: PushMotion) -> Result<(), WhyNot> {
+    fn close(&mut self, flap: usize, push: PushMotion) -> Result<f64, WhyNot> {
         let ready = self.closer.arm.ready;
         let Some(transit) = self.transit(&push.approach[0], &ready) else {
             let reason = Obstacle::NoWay { to: "to it" }.to_string();
-            return Err(WhyNot { status: Status::Blocked, reason, by_flaps: false });
+            return Err(WhyNot { status: Status::Blocked, reason, by_flaps: false, moves_box: false });
         };
         let resting = self.angles_rad.clone();
+        let rest_rad = self.closer.rest_rad(flap, &push);
         let meanwhile = push.meanwhile_rad;
         let mut held = meanwhile.clone();
         held[flap] = push.hinge_rad[push.hinge_rad.len() - 1];
@@ -232,9 +295,9 @@ impl<G: Guard> Way<'_, '_, G> {
         let piece = Piece::new(Kind::Push, pushed, push.push, meanwhile);
         self.add(Piece { hinge_rad: push.hinge_rad, contact: push.contact, ..piece });
         self.add(Piece::new(Kind::Retreat, pushed, push.retreat, held));
-        self.angles_rad[flap] = self.closer.settings.rest_rad;
+        self.angles_rad[flap] = rest_rad;
         self.order.push(flap);
-        Ok(())
+        Ok(rest_rad)
     }
 
     /// Back to where the arm began, if there is a way: an arm that stays stands clear.
@@ -250,7 +313,8 @@ impl<G: Guard> Way<'_, '_, G> {
     fn transit(&self, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
         let moment = Moment::resting(&self.angles_rad);
         let closer = self.closer;
-        Transit { arm: closer.arm, guard: closer.guard, settings: closer.settings, moment: &moment }
+        let step_rad = closer.settings.joint_step_rad;
+        Transit { arm: closer.arm, guard: closer.guard, settings: closer.settings, moment: &moment, step_rad }
             .way(&self.at, to, via)
     }
 

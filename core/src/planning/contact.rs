@@ -3,6 +3,7 @@
 use nalgebra::UnitQuaternion;
 
 use super::flap::{Flap, FlapFrame};
+use super::load::{Fold, Stand};
 use super::orientations::OrientationGrid;
 use super::settings::PlanningSettings;
 use super::touch::{flap_from_tool, Finger};
@@ -14,6 +15,8 @@ pub struct Grip {
     pub base_from_tool: Rigid,
     /// The point of touch, base frame.
     pub contact: Vec3,
+    /// The share of what moves the box that the push is (eq. 97).
+    pub strain: f64,
     /// Eq. 85: 0 for a push on the middle of the free edge, square to the face; grows as the lever shortens and the tool leans.
     pub penalty: f64,
 }
@@ -24,6 +27,8 @@ pub struct Contacts<'a> {
     pub finger: Finger,
     pub half_board_m: f64,
     pub settings: &'a PlanningSettings,
+    pub fold: Fold,
+    pub stand: Option<&'a Stand>,
     /// Tool points over the flap's plane, along the hinge and away from it.
     pub along_m: Vec<f64>,
     pub away_m: Vec<f64>,
@@ -31,7 +36,13 @@ pub struct Contacts<'a> {
 }
 
 impl<'a> Contacts<'a> {
-    pub fn new(flap: &'a Flap, finger: Finger, half_board_m: f64, settings: &'a PlanningSettings) -> Self {
+    pub fn new(
+        flap: &'a Flap,
+        finger: Finger,
+        half_board_m: f64,
+        settings: &'a PlanningSettings,
+        (fold, stand): (Fold, Option<&'a Stand>),
+    ) -> Self {
         let inset = settings.contact_inset_m;
         let [most_along, most_away] = settings.most_contacts;
         let least_away = settings.least_lever * flap.length_m();
@@ -42,6 +53,8 @@ impl<'a> Contacts<'a> {
             finger,
             half_board_m,
             settings,
+            fold,
+            stand,
             along_m: spread(inset, flap.hinge_length_m() - inset, settings.contact_step_m, most_along),
             away_m: spread(least_away, flap.length_m() + settings.contact_beyond_m, settings.contact_step_m, most_away),
             closed_from_base: UnitQuaternion::from_rotation_matrix(&rotation),
@@ -73,14 +86,27 @@ impl<'a> Contacts<'a> {
             return None;
         }
         let aside = (touch.contact[0] / self.flap.hinge_length_m() - 0.5).abs();
-        let penalty = (1.0 - lever).max(0.0) + 0.6 * aside + (0.7 - into_face).max(0.0).powi(2) + (-into_face).max(0.0);
-        Some(Grip {
-            base_from_tool: Rigid::new(rotation, frame.at(tool.x, tool.y, tool.z)),
-            contact: frame.at(contact.x, contact.y, contact.z),
-            penalty,
-        })
+        let contact = frame.at(contact.x, contact.y, contact.z);
+        let strain = self.strain(frame, touch.contact[1], &contact);
+        let penalty = (1.0 - lever).max(0.0)
+            + 0.6 * aside
+            + (0.7 - into_face).max(0.0).powi(2)
+            + (-into_face).max(0.0)
+            + STRAIN_WEIGHT * strain.powi(2);
+        Some(Grip { base_from_tool: Rigid::new(rotation, frame.at(tool.x, tool.y, tool.z)), contact, strain, penalty })
+    }
+
+    /// Of a push square to the face at a lever that overcomes crease and weight; 0 where the flap falls by itself.
+    fn strain(&self, frame: &FlapFrame, lever_m: f64, contact: &Vec3) -> f64 {
+        let Some(stand) = self.stand else { return 0.0 };
+        let cos = frame.away.dot(&self.flap.inward).clamp(-1.0, 1.0);
+        let push_n = self.fold.closing_n_m(cos.acos()).max(0.0) / lever_m;
+        stand.strain(contact, &(frame.push() * push_n)).max(0.0)
     }
 }
+
+/// What the strain squared counts in eq. 85.
+const STRAIN_WEIGHT: f64 = 1.5;
 
 /// Values from low to high a step apart, at most so many, both ends among them; the middle alone where they pass each other.
 fn spread(low: f64, high: f64, step: f64, most: usize) -> Vec<f64> {

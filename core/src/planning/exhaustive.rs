@@ -12,16 +12,24 @@ use crate::arm::{Arm, JointPositions, Shape};
 use crate::collision::{signed_distance_m, OrientedBox, Solid};
 use crate::geometry::{Rigid, Vec3};
 
-/// Between two hinge angles; contacts along and across; tool directions; turns about the finger.
+/// Between two hinge angles; turns about the finger.
 const STEP_RAD: f64 = 0.0873;
-const CONTACTS: usize = 10;
-const DIRECTIONS: usize = 200;
 const TURNS: usize = 4;
+/// A motion among fewer contacts and directions is one too: they are tried first, as they take a sixteenth of the time.
+const COARSE: Fineness = Fineness { contacts: 5, directions: 50 };
+const FINE: Fineness = Fineness { contacts: 10, directions: 200 };
 /// No joint turns more from one hinge angle to the next.
 const MOST_TURN_RAD: f64 = 0.6;
 /// The finger is slid off the board in so many steps, to within this.
 const SLIDES: usize = 12;
 const TOUCHING_M: f64 = 0.0002;
+
+/// How many contacts are tried along a flap and across it, and how many tool directions.
+#[derive(Debug, Clone, Copy)]
+struct Fineness {
+    contacts: usize,
+    directions: usize,
+}
 
 /// One flap before one arm.
 pub struct Exhaustive<'a, G: Guard> {
@@ -38,13 +46,17 @@ pub struct Exhaustive<'a, G: Guard> {
 impl<G: Guard> Exhaustive<'_, G> {
     /// Is there a chain of postures, hinge angle by hinge angle down to 0, each clear and near the one before?
     pub fn can_close(&self) -> bool {
+        self.is_chain(COARSE) || self.is_chain(FINE)
+    }
+
+    fn is_chain(&self, fineness: Fineness) -> bool {
         let start_rad = self.moment.angles_rad[self.number];
         let steps = (start_rad / STEP_RAD).ceil().max(1.0) as usize;
         let mut last: Option<Vec<JointPositions>> = None;
         for step in 0..=steps {
             let angle_rad = start_rad * (1.0 - step as f64 / steps as f64);
             let near = last.as_ref().map(|postures| Cells::of(postures));
-            let reached = self.postures(angle_rad, near.as_ref());
+            let reached = self.postures(angle_rad, fineness, near.as_ref());
             if reached.is_empty() {
                 return false;
             }
@@ -54,7 +66,8 @@ impl<G: Guard> Exhaustive<'_, G> {
     }
 
     /// Every clear posture at an angle that is near one of the angle before.
-    fn postures(&self, angle_rad: f64, near: Option<&Cells<'_>>) -> Vec<JointPositions> {
+    fn postures(&self, angle_rad: f64, fineness: Fineness, near: Option<&Cells<'_>>) -> Vec<JointPositions> {
+        let contacts = fineness.contacts;
         let moment = self.moment.pushing(self.number, angle_rad);
         let Some(board) = OrientedBox::of_panel(&self.flap.corners(angle_rad), self.thickness_m) else {
             return Vec::new();
@@ -62,13 +75,13 @@ impl<G: Guard> Exhaustive<'_, G> {
         let frame = self.flap.frame(angle_rad);
         let mut found = Vec::new();
         let mut seen = HashSet::new();
-        for direction in directions() {
+        for direction in directions(fineness.directions) {
             for turn in 0..TURNS {
                 let rotation = pointing(&direction, std::f64::consts::PI * turn as f64 / TURNS as f64);
-                for contact in 0..CONTACTS * CONTACTS {
-                    let share = |k: usize| 0.03 + 0.94 * k as f64 / (CONTACTS - 1) as f64;
-                    let u = self.flap.hinge_length_m() * share(contact % CONTACTS);
-                    let v = self.flap.length_m() * share(contact / CONTACTS);
+                for contact in 0..contacts * contacts {
+                    let share = |k: usize| 0.03 + 0.94 * k as f64 / (contacts - 1) as f64;
+                    let u = self.flap.hinge_length_m() * share(contact % contacts);
+                    let v = self.flap.length_m() * share(contact / contacts);
                     let start = Rigid::new(rotation, frame.at(u, v, self.thickness_m / 2.0));
                     let Some(pose) = self.slid_off(start, &board, &frame.outward) else { continue };
                     if self.guard.tool_conflict(&pose, &moment, self.settings.clearance_m).is_some() {
@@ -146,9 +159,9 @@ fn cell(posture: &JointPositions) -> [i32; 3] {
 }
 
 /// Evenly spread over the sphere (Fibonacci's lattice).
-fn directions() -> impl Iterator<Item = Vec3> {
-    (0..DIRECTIONS).map(|k| {
-        let z = 1.0 - (2.0 * k as f64 + 1.0) / DIRECTIONS as f64;
+fn directions(count: usize) -> impl Iterator<Item = Vec3> {
+    (0..count).map(move |k| {
+        let z = 1.0 - (2.0 * k as f64 + 1.0) / count as f64;
         let turn = k as f64 * std::f64::consts::PI * (3.0 - 5f64.sqrt());
         let radius = (1.0 - z * z).sqrt();
         Vec3::new(radius * turn.cos(), radius * turn.sin(), z)

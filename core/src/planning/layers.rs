@@ -20,6 +20,8 @@ pub struct Layers<'a, G: Guard> {
     pub contacts: &'a Contacts<'a>,
     pub settings: &'a PlanningSettings,
     pub flap: usize,
+    /// Of what moves the box.
+    pub most_strain: f64,
     /// Where all flaps are; this one moves.
     pub moment: &'a Moment,
     /// Hinge angles, first to last, rad, and where all flaps are then.
@@ -181,7 +183,7 @@ impl<G: Guard> Layers<'_, G> {
     ) {
         let near = &OrientationGrid::shared().near[state.orientation];
         let turned = near.iter().map(|&(orientation, angle_rad)| (state.place, orientation, 0.3 * angle_rad));
-        let slid = self.places_beside(state.place).map(|place| (place, state.orientation, 0.15));
+        let slid = self.places_beside(state.place).map(|place| (place, state.orientation, SLIDE_COST));
         for (place, orientation, change) in turned.chain(slid) {
             let near = Some(&state.positions);
             let Some(reached) = self.reached(layer, place, orientation, near, memory, tally) else { continue };
@@ -197,8 +199,10 @@ impl<G: Guard> Layers<'_, G> {
                     continue;
                 }
                 follows = true;
+                let drag = if place == state.place { 0.0 } else { grip.strain };
                 let cost = state.cost
                     + 0.3 * grip.penalty
+                    + drag
                     + change
                     + 0.5 * squares
                     + 0.3 * limit_penalty(self.arm, &solution.positions);
@@ -244,8 +248,15 @@ impl<G: Guard> Layers<'_, G> {
         let frame = self.contacts.flap.frame(self.angles_rad[layer]);
         let grip = self.contacts.grip(&frame, self.place_m(place), &self.contacts.rotation(orientation));
         let moment = &self.moments[layer];
+        let bearable = grip.filter(|grip| {
+            let moves = grip.strain > self.most_strain;
+            if moves {
+                tally.add(Obstacle::Moves);
+            }
+            !moves
+        });
         let clear =
-            grip.filter(|grip| match self.guard.tool_conflict(&grip.base_from_tool, moment, self.clearance_m()) {
+            bearable.filter(|grip| match self.guard.tool_conflict(&grip.base_from_tool, moment, self.clearance_m()) {
                 Some(obstacle) => {
                     tally.add(obstacle);
                     false
@@ -293,7 +304,9 @@ impl<G: Guard> Layers<'_, G> {
 }
 
 /// Whole paths handed back, at most.
-const MOST_PATHS: usize = 6;
+const MOST_PATHS: usize = 24;
+/// What sliding to the contact beside costs, besides the strain there: a finger that slips drags the box with it.
+const SLIDE_COST: f64 = 0.15;
 /// The first layer is this much wider than the others, and this many postures are tried for it.
 const START_WIDTH: usize = 2;
 const START_TRIES: usize = 2000;

@@ -41,7 +41,30 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
     }
     let left = ranked.iter().filter(|flap| !best.contains(flap));
     let why_not = left.filter_map(|&flap| Some((flap, search.why_not(flap, &best)?))).collect();
-    Ordered { order: best, pushes, why_not, seconds: search.seconds }
+    let mut ordered = Ordered { order: best, pushes, why_not, seconds: search.seconds };
+    add_sliding(closer, &mut ordered, angles_rad);
+    ordered
+}
+
+/// Puts last what may move the box, so that no other flap is missed for it.
+fn add_sliding<G: Guard>(closer: &Closer<'_, G>, ordered: &mut Ordered, angles_rad: &[f64]) {
+    let mut angles_rad = angles_rad.to_vec();
+    for (&flap, push) in ordered.order.iter().zip(&ordered.pushes) {
+        angles_rad[flap] = closer.rest_rad(flap, push);
+    }
+    for (flap, why) in std::mem::take(&mut ordered.why_not) {
+        let started = Instant::now();
+        let push = if why.moves_box { closer.push_home(flap, &Moment::resting(&angles_rad)) } else { None };
+        ordered.seconds[flap] += started.elapsed().as_secs_f64();
+        match push {
+            Some(push) => {
+                angles_rad[flap] = closer.rest_rad(flap, &push);
+                ordered.order.push(flap);
+                ordered.pushes.push(push);
+            }
+            None => ordered.why_not.push((flap, why)),
+        }
+    }
 }
 
 /// As the paper closes them: by area, ties by number, each once, whatever becomes of the others.
@@ -56,7 +79,7 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
         let started = Instant::now();
         match closer.push(flap, &Moment::resting(&angles_rad)) {
             Ok(push) => {
-                angles_rad[flap] = closer.settings.rest_rad;
+                angles_rad[flap] = closer.rest_rad(flap, &push);
                 found.order.push(flap);
                 found.pushes.push(push);
             }
@@ -105,10 +128,11 @@ impl<G: Guard> Search<'_, '_, G> {
             if !self.can_push(flap, order, angles_rad) {
                 continue;
             }
+            let rest_rad = self.rest_rad(flap, order);
             order.push(flap);
             let others: Vec<usize> = rest.iter().copied().filter(|&other| other != flap).collect();
             let mut after = angles_rad.to_vec();
-            after[flap] = self.closer.settings.rest_rad;
+            after[flap] = rest_rad;
             if self.extend(order, &others, &after) {
                 return true;
             }
@@ -122,6 +146,12 @@ impl<G: Guard> Search<'_, '_, G> {
         let sets = (0..=order.len()).rev().map(|count| closed_set(&order[..count]));
         let mut tried = sets.filter_map(|set| self.known.get(&(flap, set)));
         tried.find_map(|tried| tried.as_ref().err().cloned())
+    }
+
+    /// Where a flap whose push is known rests after it.
+    fn rest_rad(&self, flap: usize, before: &[usize]) -> f64 {
+        let push = self.known.get(&(flap, closed_set(before))).and_then(|tried| tried.as_ref().ok());
+        push.map_or(0.0, |push| self.closer.rest_rad(flap, push))
     }
 
     fn can_push(&mut self, flap: usize, before: &[usize], angles_rad: &[f64]) -> bool {

@@ -34,6 +34,8 @@ pub struct Pusher<'a, G: Guard> {
     pub guard: &'a G,
     pub settings: &'a PlanningSettings,
     pub contacts: Contacts<'a>,
+    /// The greatest share of what moves the box that the push may be.
+    pub most_strain: f64,
     pub flap: usize,
     /// Where all flaps are before the push.
     pub moment: Moment,
@@ -56,6 +58,7 @@ impl<G: Guard> Pusher<'_, G> {
             guard: self.guard,
             contacts: &self.contacts,
             settings: self.settings,
+            most_strain: self.most_strain,
             flap: self.flap,
             moment: &pressed,
             angles_rad: &angles_rad,
@@ -80,6 +83,7 @@ impl<G: Guard> Pusher<'_, G> {
                 Found::Stuck { layer, tally } => why = Some(self.why_stuck(angles_rad[layer], layer == 0, &tally)),
                 Found::Paths(paths) => {
                     let mut tally = Tally::default();
+                    self.guard.explain_anew();
                     for path in &paths {
                         match self.dense(&layers, path, &lines, (&touching, &before), (&held, &after)) {
                             Ok(motion) => return Ok(motion),
@@ -94,6 +98,7 @@ impl<G: Guard> Pusher<'_, G> {
             status: Status::OutOfTime,
             reason: "no search was allowed".into(),
             by_flaps: false,
+            moves_box: false,
         }))
     }
 
@@ -101,7 +106,7 @@ impl<G: Guard> Pusher<'_, G> {
     pub fn pressed(&self) -> Moment {
         let mut pressed = self.moment.clone();
         for (flap, angle_rad) in pressed.angles_rad.iter_mut().enumerate() {
-            if flap != self.flap && angle_rad.abs() <= self.settings.closed_rad {
+            if flap != self.flap && angle_rad.abs() <= self.settings.lying_rad {
                 *angle_rad = angle_rad.min(self.hold_rad - self.settings.under_rad);
             }
         }
@@ -181,7 +186,8 @@ impl<G: Guard> Pusher<'_, G> {
     pub fn why_stuck(&self, angle_rad: f64, at_start: bool, tally: &Tally) -> WhyNot {
         let degrees = angle_rad.to_degrees();
         let place = if at_start { "where it stands".to_string() } else { format!("at {degrees:.0} degrees") };
-        let near = tally.commonest(|obstacle| matches!(obstacle, Obstacle::Near { .. } | Obstacle::NoWay { .. }));
+        let near = tally
+            .commonest(|obstacle| matches!(obstacle, Obstacle::Near { .. } | Obstacle::NoWay { .. } | Obstacle::Moves));
         let limit = tally.commonest(|obstacle| matches!(obstacle, Obstacle::Limit { .. }));
         let any = tally.commonest(|_| true);
         let (status, obstacle) = match (near, limit, any) {
@@ -196,7 +202,8 @@ impl<G: Guard> Pusher<'_, G> {
             Obstacle::Something => true,
             _ => false,
         });
-        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps }
+        let moves_box = tally.any(|obstacle| *obstacle == Obstacle::Moves);
+        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, moves_box }
     }
 }
 

@@ -13,6 +13,8 @@ pub enum Obstacle {
     Near { body: String, other: String },
     /// Something comes too near to something; which was not asked.
     Something,
+    /// The push would move the box rather than the flap.
+    Moves,
     /// Two boards meet, whatever the arm does.
     Boards { flap: String, other: String },
     /// The arm cannot follow without a jump of its joints.
@@ -28,6 +30,7 @@ impl fmt::Display for Obstacle {
             Self::Limit { joint } => write!(f, "is reached only beyond the limits of {joint}"),
             Self::Near { body, other } => write!(f, "{body} comes too near to {other}"),
             Self::Something => write!(f, "something is in the way"),
+            Self::Moves => write!(f, "the crease takes more force than holds the box: it would slide or tip"),
             Self::Boards { flap, other } => write!(f, "{flap} meets {other}"),
             Self::Jump => write!(f, "the arm would have to change its posture while pushing"),
             Self::NoWay { to } => write!(f, "no way was found {to}"),
@@ -92,4 +95,6 @@ pub struct WhyNot {
     pub reason: String,
     /// Whether other flaps had a part in it: then it may be otherwise once they have moved.
     pub by_flaps: bool,
+    /// Whether pushes were left out that would have moved the box.
+    pub moves_box: bool,
 }

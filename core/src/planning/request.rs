@@ -7,6 +7,7 @@ use super::closing::Closer;
 use super::exhaustive::Exhaustive;
 use super::flap::Standing;
 use super::guard::Moment;
+use super::load::Load;
 use super::problem::MeasuredBox;
 use super::reason::Obstacle;
 use super::settings::PlanningSettings;
@@ -74,8 +75,9 @@ impl Request {
     pub fn plan(self, arm: &Arm) -> Result<Answer> {
         let mut problem = self.measured.into_problem()?;
         let settings = &self.settings;
-        for flap in problem.flaps.iter_mut().filter(|flap| self.closed.contains(&flap.name)) {
-            flap.position_rad = settings.rest_rad;
+        let load = Load::of(&problem, &settings.assumed);
+        for (flap, fold) in problem.flaps.iter_mut().zip(&load.folds).filter(|(f, _)| self.closed.contains(&f.name)) {
+            flap.position_rad = fold.rest_rad(0.0).min(settings.closed_rad);
         }
         let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
         let guard = Surroundings::new(arm, &problem, scene);
@@ -83,12 +85,17 @@ impl Request {
         let mut left_open: Vec<(String, Obstacle)> = Vec::new();
         for attempt in 0.. {
             let mut settings = settings.clone();
-            settings.search_margin_m *= f64::from(attempt.min(WIDER) + 1);
+            // Wider margins for what lies between postures, and postures closer together where the finger touches.
+            let wider = f64::from(attempt.min(WIDER) + 1);
+            settings.search_margin_m *= wider;
+            settings.sample_rad /= wider;
+            settings.touch_gap_m *= wider;
             let left: Vec<&str> = left_open.iter().map(|(name, _)| name.as_str()).collect();
             let closer = Closer {
                 arm,
                 guard: &guard,
                 problem: &problem,
+                load: &load,
                 settings: &settings,
                 method: self.method,
                 only: &self.only,
@@ -140,6 +147,23 @@ impl Request {
             (flap.name.clone(), search.can_close())
         });
         Ok(answers.collect())
+    }
+}
+
+impl Request {
+    /// For each flap that is open, by name: does the box, as its folds and weight are assumed, stand its closing?
+    ///
+    /// # Errors
+    /// Where there is nothing to close.
+    pub fn bearable(self) -> Result<Vec<(String, bool)>> {
+        let problem = self.measured.into_problem()?;
+        let load = Load::of(&problem, &self.settings.assumed);
+        let open = problem
+            .flaps
+            .iter()
+            .enumerate()
+            .filter(|(_, flap)| flap.standing == Standing::Seen && flap.position_rad > self.settings.closed_rad);
+        Ok(open.map(|(k, flap)| (flap.name.clone(), load.is_bearable(&problem, k))).collect())
     }
 }
 

@@ -1,5 +1,7 @@
 use serde::Deserialize;
 
+use super::load::Assumed;
+
 /// What the planner takes for granted; every default of it is here and nowhere else. Metres, radians, seconds.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -10,13 +12,25 @@ pub struct PlanningSettings {
     pub search_margin_m: f64,
     /// A flap within this of 0 is closed.
     pub closed_rad: f64,
-    /// How far a flap is pushed beyond closed, so that it springs back to closed; above -15 degrees, where it counts as pushed in.
-    pub overclose_rad: f64,
-    /// The same of a flap that comes to lie on others, or that carries a tuck. Below 0, short of closed: its edge may lie near the
-    /// hinge of one below, which would be pushed in by many times as much.
-    pub overclose_on_others_rad: f64,
-    /// Where a flap that was let go is taken to rest.
-    pub rest_rad: f64,
+    /// A flap below this lies more than it stands: others come down on it, and it gives way.
+    pub lying_rad: f64,
+    /// Where a flap is to rest when it has sprung back: it is pushed beyond closed by what its crease gives back less this, at most
+    /// by so much (a flap below -15 degrees counts as pushed in).
+    pub rest_aim_rad: f64,
+    pub most_overclose_rad: f64,
+    /// Short of closed ends the push of a flap that comes to lie on others or carries a tuck (its edge may lie near the hinge of one
+    /// below, which would be pushed in by many times as much), and of one that would come to lie on the rims beside it.
+    pub short_on_others_rad: f64,
+    pub short_on_rims_rad: f64,
+    /// The same where flaps across from one another overlap: boards lie on boards, and the upper one's edge is near the lower's hinge.
+    pub short_on_stacks_rad: f64,
+    /// Boards that come nearer to a flap than this on their way down are taken to stop it.
+    pub rim_gap_m: f64,
+    /// What is taken for granted of folds and weight, and the greatest share of what moves the box that a push may be. A flap below
+    /// this angle closes even if the box slides a little: where nothing else closes it, it is pushed all the same, after the others.
+    pub assumed: Assumed,
+    pub most_strain: f64,
+    pub slides_home_rad: f64,
     /// How far below a flap that is pushed onto others those are taken to give way.
     pub under_rad: f64,
     /// Between two layers of the search, at most.
@@ -70,13 +84,20 @@ impl Default for PlanningSettings {
             clearance_m: 0.005,
             search_margin_m: 0.0015,
             closed_rad: 15f64.to_radians(),
-            overclose_rad: 9f64.to_radians(),
-            overclose_on_others_rad: -1f64.to_radians(),
-            rest_rad: 4f64.to_radians(),
+            lying_rad: 25f64.to_radians(),
+            rest_aim_rad: 3f64.to_radians(),
+            most_overclose_rad: 13f64.to_radians(),
+            short_on_others_rad: 0.3f64.to_radians(),
+            short_on_rims_rad: 0.5f64.to_radians(),
+            short_on_stacks_rad: 2.5f64.to_radians(),
+            rim_gap_m: 0.0003,
+            assumed: Assumed::default(),
+            most_strain: 0.85,
+            slides_home_rad: 80f64.to_radians(),
             under_rad: 4f64.to_radians(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
-            beams: vec![16, 80],
+            beams: vec![16, 100],
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,

@@ -11,6 +11,8 @@ pub struct Transit<'a, G: Guard> {
     pub guard: &'a G,
     pub settings: &'a PlanningSettings,
     pub moment: &'a Moment,
+    /// Between two checked postures: the widest turn of any joint.
+    pub step_rad: f64,
 }
 
 /// A tree of postures, each with the one it was reached from.
@@ -18,6 +20,8 @@ struct Tree {
     nodes: Vec<(JointPositions, usize)>,
 }
 
+/// How many times finer than the settings' the steps of a search are, one search after the other.
+const FINER: [f64; 2] = [1.0, 4.0];
 /// How far a tree grows towards a drawn posture at once, in steps of `joint_step_rad`.
 const GROWTH: usize = 8;
 /// Postures are drawn within this of the box of both ends in every second draw, else within the joints' limits: ways are mostly near.
@@ -26,6 +30,24 @@ const AROUND_RAD: f64 = 0.6;
 impl<G: Guard> Transit<'_, G> {
     /// Postures from one to the other, the straight lines between which are clear; None where no way was found.
     pub fn way(&self, from: &JointPositions, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
+        // Fine steps take long and are seldom needed: a way found with coarse ones is looked at again with fine ones.
+        FINER
+            .into_iter()
+            .find_map(|finer| {
+                let search = Self { step_rad: self.step_rad / finer, ..*self };
+                let way = search.any_way(from, to, via)?;
+                let fine = Self { step_rad: self.step_rad / FINER[FINER.len() - 1], ..*self };
+                way.windows(2).all(|pair| fine.is_clear(&pair[0], &pair[1])).then_some(way)
+            })
+            .map(|mut way| {
+                // Leaving out nodes that are one but for rounding may have left out an end.
+                let last = way.len() - 1;
+                (way[0], way[last]) = (*from, *to);
+                way
+            })
+    }
+
+    fn any_way(&self, from: &JointPositions, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
         if self.is_clear(from, to) {
             return Some(vec![*from, *to]);
         }
@@ -47,7 +69,7 @@ impl<G: Guard> Transit<'_, G> {
     }
 
     fn steps_between(&self, from: &JointPositions, to: &JointPositions) -> usize {
-        (widest_turn(from, to) / self.settings.joint_step_rad).ceil().max(1.0) as usize
+        (widest_turn(from, to) / self.step_rad).ceil().max(1.0) as usize
     }
 
     fn is_free(&self, positions: &JointPositions) -> bool {

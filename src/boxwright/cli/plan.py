@@ -7,28 +7,18 @@ from typing import Annotated
 
 import typer
 
+from boxwright.cli.groups import grouped
 from boxwright.cli.options import JsonOption
-from boxwright.cli.plan_options import (
-    CameraPoseOption,
-    ObjectOption,
-    PlaceRobotOption,
-    PlannerOption,
-    RobotOption,
-    SceneOption,
-)
+from boxwright.cli.plan_options import PlanOptions
 
 
+@grouped
 def plan(
     model_dir: Annotated[
         Path, typer.Argument(metavar="DIR/NAME", help="What `boxwright infer` wrote: a folder with model.json.")
     ],
     output: Annotated[Path, typer.Option("-o", "--output", metavar="PLAN_DIR", help="Folder to write to.")],
-    robot: RobotOption,
-    camera_pose: CameraPoseOption = None,
-    place_robot: PlaceRobotOption = False,
-    object_index: ObjectOption = 0,
-    scene: SceneOption = None,
-    planner: PlannerOption = "layered",
+    planning: PlanOptions,
     moves: Annotated[
         bool, typer.Option("--moves", help="Look for the smallest move of the base that lets an open flap be closed.")
     ] = False,
@@ -46,16 +36,16 @@ def plan(
     boxwright plan out/frame --robot my_arm.toml --place-robot -o out/plan --scene fence.urdf
     """
     from boxwright.cli.plan_report import exit_status, print_plan
-    from boxwright.cli.plan_steps import base_pose, make_plan, save_plan_folder
+    from boxwright.cli.plan_steps import save_plan_folder
     from boxwright.io.models import load_model
 
     model = load_model(model_dir / "model.json")
-    pose = base_pose(model, robot, camera_pose, place_robot, object_index)
-    made = make_plan(model, robot, pose, object_index, scene, planner)
+    pose = planning.base_pose(model)
+    made = planning.make(model, pose)
     if moves:
         from boxwright.planning import with_moves
 
-        made = with_moves(made, model, robot)
+        made = with_moves(made, model, planning.robot, planning.settings())
     files = save_plan_folder(made, model, pose, output)
     print_plan(made, files, as_json=as_json)
     status = exit_status(made)

@@ -33,7 +33,8 @@ def print_plan(plan: Plan, files: Sequence[Path], *, as_json: bool) -> None:
     if as_json:
         print(msgspec.json.encode(plan).decode())
         return
-    rows = table(f"{plan.robot}, {plan.method} planner", "flap", "status", "why")
+    rows = table(f"{plan.robot}, {plan.method} planner", "flap", "status")
+    rows.add_column("why", overflow="fold")
     for name in (*plan.order, *(name for name in plan.flaps if name not in plan.order)):
         flap = plan.flaps[name]
         rows.add_row(name, flap.status, " ".join(filter(None, (flap.reason, _move(plan, name)))))

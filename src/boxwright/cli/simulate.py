@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from boxwright.cli.options import JsonOption
+from boxwright.cli.plan_options import SceneOption
 
 
 def simulate(
@@ -44,11 +45,16 @@ def simulate(
     video: Annotated[bool, typer.Option("--video", help="Draw simulation.gif too; slow without a graphics card.")] = (
         False
     ),
+    replan: Annotated[
+        bool, typer.Option("--replan", help="After each flap look again with the simulated sensor, and plan anew.")
+    ] = False,
+    scene: SceneOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Let the arm follow a plan in physics, and see which flaps are closed and stay closed.
 
-    Writes [bold]simulation.json[/], [bold]simulation.png[/] and with --video [bold]simulation.gif[/]. Exit status 0
+    Writes [bold]simulation.json[/], [bold]simulation.png[/] and with --video [bold]simulation.gif[/]; with --replan
+    each look's model and plan too, look_1 and on (--scene then tells what stands around, as in `plan`). Exit status 0
     when every flap that was planned is closed in the end, 3 when one is not.
 
     [bold]Examples[/]
@@ -56,21 +62,26 @@ def simulate(
     boxwright simulate out/plan --truth set/frame.truth.json
 
     boxwright simulate out/plan --crease stiff --empty --video
+
+    boxwright simulate out/plan --truth set/frame.truth.json --replan
     """
+    from boxwright.cli.acting import act_at_once, act_looking
+    from boxwright.cli.plan_options import crease_settings, read_things
     from boxwright.cli.simulate_report import NOT_CLOSED, all_held, draw, print_run
     from boxwright.io.models import load_model
     from boxwright.io.plans import load_plan
     from boxwright.io.simulations import save_simulation
     from boxwright.io.truth import load_truth
+    from boxwright.pipeline import infer
     from boxwright.robots.catalogue import robot_file
-    from boxwright.simulation.physics import CREASE, Load, PhysicsSettings
-    from boxwright.simulation.physics import simulate as simulate_plan
+    from boxwright.simulation.physics import CREASE, Load, PhysicsSettings, staged_plan
 
     step_s = time_step_ms / 1000.0
     plan = load_plan(plan_dir / "plan.json")
-    run = simulate_plan(
+    model = load_model(plan_dir / "model.json")
+    staged = staged_plan(
         plan,
-        load_model(plan_dir / "model.json"),
+        model,
         None if truth is None else load_truth(truth),
         crease=crease or CREASE,
         crease_file=crease_file,
@@ -80,10 +91,18 @@ def simulate(
         thickness_m=None if board_mm is None else board_mm / 1000.0,
         stills_per_s=(10.0 if video else 4.0) if picture or video else 0.0,
     )
+    if replan:
+        done = act_looking(
+            staged, plan, model, crease or CREASE, lambda seen: infer(seen).model, robot or plan.robot,
+            scene=read_things(scene), settings=crease_settings(crease, crease_file),
+        )  # fmt: skip
+    else:
+        done = act_at_once(staged, plan, crease or CREASE)
     folder = output or plan_dir
     folder.mkdir(parents=True, exist_ok=True)
-    save_simulation(run.simulation, folder / "simulation.json")
-    files = [folder / "simulation.json", *draw(run, folder, picture=picture, video=video)]
-    print_run(run.simulation, plan.order, files, as_json=as_json)
-    if not all_held(run.simulation, plan.order):
+    files = done.save_looks(folder)
+    save_simulation(done.run.simulation, folder / "simulation.json")
+    files += [folder / "simulation.json", *draw(done.run, folder, picture=picture, video=video)]
+    print_run(done.run.simulation, done.order, files, as_json=as_json)
+    if not all_held(done.run.simulation, done.order):
         raise typer.Exit(NOT_CLOSED)

@@ -36,3 +36,13 @@ def ask(
     }
     answer: dict[str, Any] = json.loads(_core.plan_closing(robot_text(robot), json.dumps(request)))
     return answer
+
+
+def ask_feasible(robot: str | PathLike[str], box: Mapping[str, Any], only: Sequence[str]) -> dict[str, bool]:
+    """Of the named flaps that are open: can brute force close each by itself, all others as they are? Takes minutes."""
+    return dict(_core.feasible_flaps(robot_text(robot), json.dumps({"box": box, "only": list(only)})))
+
+
+def ask_bearable(box: Mapping[str, Any], settings: Mapping[str, Any] | None = None) -> dict[str, bool]:
+    """Of the open flaps: does the box, as its folds and weight are assumed, stand being pushed so hard?"""
+    return dict(_core.bearable_flaps(json.dumps({"box": box, "settings": dict(settings or {})})))

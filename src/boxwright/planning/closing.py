@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Any
 
@@ -33,13 +33,16 @@ def plan_closing(
     object_index: int = 0,
     scene: tuple[Thing, ...] = (),
     method: str = DEFAULT_METHOD,
+    only: Sequence[str] = (),
+    closed: Sequence[str] = (),
     settings: Mapping[str, Any] | None = None,
 ) -> Plan:
     """Plan the arm's motions that close the flaps of one object, from the arm's ready pose and back.
 
     `robot` is a shipped robot's name or a robot's file; `base_from_input` a pose or a (4, 4) transform in metres;
-    `scene` what else stands around; `settings` the core's planning settings by name. The same input gives the same
-    motion bit for bit; `seconds` differ.
+    `scene` what else stands around; where `only` names flaps, all others stay as they are; `closed` flaps were closed
+    since the model was seen; `settings` are the core's planning settings by name. The same input gives the same motion
+    bit for bit; `seconds` differ.
 
     Raises ValueError in one line for a robot, object or pose that cannot be used, OSError for files.
     """
@@ -49,7 +52,7 @@ def plan_closing(
     transform = from_pose(base_from_input) if isinstance(base_from_input, Pose) else np.asarray(base_from_input, float)
     box = measured_box(model, object_index, transform)
     refuse_poses(model, model.objects[object_index], transform)
-    answer = ask(robot, box, settings, scene=scene, method=method)
+    answer = ask(robot, box, settings, scene=scene, method=method, only=only, closed=closed)
     fields = {
         "format": "boxwright.plan",
         "version": 1,

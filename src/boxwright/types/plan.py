@@ -47,16 +47,19 @@ class SmallestMove(msgspec.Struct, frozen=True, kw_only=True):
 class FlapOutcome(msgspec.Struct, frozen=True, kw_only=True):
     """What became of a flap: `reason` says why in one line, None where it is planned; `seconds` were spent on it.
 
-    `move` would make it possible; None where the flap needs none, or where none was looked for or found.
+    `move` would make it possible; None where the flap needs none, or where none was looked for or found. `rest_rad` is
+    the hinge position at which a planned flap is taken to rest after it was let go; None where it is not planned.
     """
 
     status: FlapStatus
     reason: str | None
     seconds: float
     move: SmallestMove | None = None
+    rest_rad: float | None = None
 
     def __post_init__(self) -> None:
         require_not_negative("seconds", [self.seconds])
+        require_finite("rest_rad", [self.rest_rad or 0.0])
         if (self.status == "planned") != (self.reason is None):
             raise ValueError(
                 f"reason is {self.reason!r} where status is {self.status!r}; planned flaps alone have none"

@@ -23,11 +23,17 @@ def matched(boxes: Sequence[BoardBox], modelled: BoardBox) -> tuple[int, BoardBo
 
     Raises ValueError when none is nearer than FARTHEST_M.
     """
+    k, shift = match_of(boxes, modelled)
+    return k, renumbered(boxes[k], shift)
+
+
+def match_of(boxes: Sequence[BoardBox], modelled: BoardBox) -> tuple[int, int]:
+    """As `matched`: the nearest box, and s where its side (k + s) mod 4 is the inferred one's side k."""
     found = [(_mean_distance_m(box, modelled, shift), k, shift) for k, box in enumerate(boxes) for shift in range(4)]
     if not found or min(found)[0] > FARTHEST_M:
         raise ValueError(f"no true box is within {FARTHEST_M} m of the planned one; is it the truth of the same frame?")
     _, k, shift = min(found)
-    return k, renumbered(boxes[k], shift)
+    return k, shift
 
 
 def renumbered(box: BoardBox, shift: int) -> BoardBox:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from os import PathLike
+from typing import Literal
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from boxwright.simulation.physics.arm import Arm
 from boxwright.simulation.physics.boards import BoardBox, modelled_box, true_box
+from boxwright.simulation.physics.creases import crease_class
 from boxwright.simulation.physics.matching import matched
 from boxwright.simulation.physics.robot_file import load_robot
-from boxwright.simulation.physics.run import CREASE, Run, simulate_closing
-from boxwright.simulation.physics.session import Load
+from boxwright.simulation.physics.run import CREASE, Run, run_of
+from boxwright.simulation.physics.session import Load, Session
 from boxwright.simulation.physics.settings import PhysicsSettings
 from boxwright.types import Model, Plan, RobotFile, Truth
 
@@ -41,6 +44,38 @@ def simulate(
 
     Raises ValueError when plan, model and truth do not belong together, or a value cannot be used; OSError for files.
     """
+    staged = staged_plan(
+        plan, model, truth, crease=crease, crease_file=crease_file, robot=robot, load=load, settings=settings,
+        thickness_m=thickness_m, stills_per_s=stills_per_s,
+    )  # fmt: skip
+    staged.session.follow(plan.segments)
+    return run_of(staged.session, crease, staged.kind)
+
+
+class Staged(msgspec.Struct, frozen=True, eq=False):
+    """A box before the arm that is to follow a plan, the boxes beside it, and whether it is the true one."""
+
+    session: Session
+    others: tuple[BoardBox, ...]
+    kind: Literal["inferred", "true"]
+
+
+def staged_plan(
+    plan: Plan,
+    model: Model,
+    truth: Truth | None = None,
+    *,
+    crease: str = CREASE,
+    crease_file: str | PathLike[str] | None = None,
+    robot: RobotFile | str | PathLike[str] | None = None,
+    load: Load | None = None,
+    settings: PhysicsSettings | None = None,
+    thickness_m: float | None = None,
+    stills_per_s: float = 0.0,
+) -> Staged:
+    """All that `simulate` needs, at rest before the plan's first posture; arguments and errors are those of it."""
+    if not plan.segments:
+        raise ValueError("there is no segment to follow; a plan that closes no flap has no motion")
     base_from_input = np.array(plan.base_from_input)
     box, others = scene_boxes(plan, model, truth, base_from_input, thickness_m)
     arm = Arm(robot if isinstance(robot, RobotFile) else load_robot(robot or plan.robot))
@@ -51,18 +86,18 @@ def simulate(
         raise ValueError(
             f"the plan's joints are {', '.join(plan.joint_names)}; those of {arm.name}: {', '.join(names)}"
         )
-    return simulate_closing(
+    session = Session(
         box,
         arm,
-        plan.segments,
-        crease,
-        kind="inferred" if truth is None else "true",
-        crease_file=crease_file,
+        np.array(plan.segments[0].positions[0]),
+        crease_class(crease, crease_file),
+        opening_m=plan.segments[0].gripper_opening_m,
         settings=settings,
         load=load,
         others=others,
         stills_per_s=stills_per_s,
     )
+    return Staged(session, tuple(others), "inferred" if truth is None else "true")
 
 
 def scene_boxes(

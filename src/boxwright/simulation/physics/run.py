@@ -30,6 +30,11 @@ class Run(msgspec.Struct, frozen=True, eq=False):
     world: World
 
 
+def run_of(session: Session, crease: str, kind: Literal["inferred", "true"]) -> Run:
+    """What has become of a session's box until now; `crease` and `kind` are the names under which it is told."""
+    return Run(session.verdict(crease, kind), session.box_now(), session.stage.film, session.stage.world)
+
+
 def simulate_closing(
     box: BoardBox,
     tool: Tool,
@@ -63,4 +68,4 @@ def simulate_closing(
         stills_per_s=stills_per_s,
     )
     session.follow(segments)
-    return Run(session.verdict(crease, kind), session.box_now(), session.stage.film, session.stage.world)
+    return run_of(session, crease, kind)

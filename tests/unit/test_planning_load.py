@@ -1,0 +1,84 @@
+"""How hard a box may be pushed: what statics refuse, physics cannot close; what is told of the box changes it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from closing.problems import Problem, draw_problem
+
+from boxwright.planning import ask_bearable, assumed, measured_box, plan_closing
+from boxwright.simulation.physics import crease_class, simulate
+from boxwright.types import Plan
+
+ROBOT = "viper_s850"
+LIGHT = (0, 156)
+"""Small boxes with short flaps that the arm reaches and that take more than holds the box."""
+
+REGARDLESS = {"most_strain": 1e9}
+
+
+def _plan(problem: Problem, settings: dict[str, Any] | None = None) -> Plan:
+    return plan_closing(problem.model, ROBOT, np.eye(4), settings=settings)
+
+
+def test_a_flap_that_would_move_the_box_is_told_and_physics_agrees() -> None:
+    counted = 0
+    for number in LIGHT:
+        problem = draw_problem(number)
+        plan, regardless = _plan(problem), _plan(problem, REGARDLESS)
+        refused = [name for name, flap in plan.flaps.items() if flap.reason and "slide or tip" in flap.reason]
+        assert all(plan.flaps[name].status == "blocked" for name in refused)
+        careful, careless = (simulate(made, problem.model).simulation for made in (plan, regardless))
+        assert all(careful.flaps[name].held for name in plan.order)
+        assert careful.box_slid_m < 0.005 < 0.02 < careless.box_slid_m
+        for name in refused:
+            if name in regardless.order:
+                assert not careless.flaps[name].held, f"problem {number}: {name}"
+                counted += 1
+    assert counted == 3
+
+
+def test_a_heavy_box_bears_what_a_light_one_does_not() -> None:
+    problem = draw_problem(LIGHT[0])
+    box = measured_box(problem.model, 0, np.eye(4))
+    figures = crease_class("ordinary")
+    told: dict[str, Any] = {
+        "moment_n_m_per_m": figures.moment_n_m_per_m,
+        "board_m": figures.board_mm / 1000.0,
+        "return_rad": figures.return_rad,
+    }
+    light, heavy = (ask_bearable(box, assumed(**told, mass_kg=mass_kg)) for mass_kg in (0.2, 20.0))
+    assert light.keys() == heavy.keys()
+    assert not any(light.values())
+    assert all(heavy.values())
+    assert len(heavy) >= 3
+
+
+def test_what_creases_give_back_is_pushed_beyond_closed() -> None:
+    problem = draw_problem(3)
+    counted = 0
+    for name in ("pre_broken", "ordinary", "stiff"):
+        figures = crease_class(name)
+        settings = assumed(
+            moment_n_m_per_m=figures.moment_n_m_per_m,
+            board_m=figures.board_mm / 1000.0,
+            return_rad=figures.return_rad,
+            mass_kg=20.0,
+        )
+        plan = _plan(problem, settings)
+        first = next(segment for segment in plan.segments if segment.kind == "push")
+        assert first.flap is not None
+        assert first.hinge_angle_rad is not None
+        rest_rad = plan.flaps[first.flap].rest_rad
+        assert rest_rad is not None
+        # It comes back by no more than the class says, and by less where its weight holds it down.
+        assert 0.0 <= rest_rad - first.hinge_angle_rad[-1] <= figures.return_rad + 1e-9
+        counted += 1
+    assert counted == 3
+
+
+def test_figures_that_are_none_are_refused() -> None:
+    with pytest.raises(ValueError, match="return_rad"):
+        assumed(moment_n_m_per_m=0.6, board_m=0.004, return_rad=-0.1)
