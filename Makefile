@@ -119,8 +119,8 @@ weights-fitted:
 	$(BIN)/boxwright synth $(SETS)/totes --count 30 --seed 4 --category tote
 	$(BIN)/boxwright train $(SETS)/train $(SETS)/train_none $(SETS)/totes --template tote \
 		--method exact -o $(WEIGHTS)/exact/tote.json
-	$(BIN)/boxwright synth $(SETS)/judge --count 150 --seed 501
-	$(BIN)/boxwright synth $(SETS)/judge_none --count 60 --seed 502 --category none
+	$(BIN)/boxwright synth $(SETS)/judge --count 360 --seed 503
+	$(BIN)/boxwright synth $(SETS)/judge_none --count 160 --seed 504 --category none
 	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none --method fitted -o $(WEIGHTS)/fitted/judgement.json
 	$(BIN)/python -m benchmarks.kinds $(SETS)/train $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 

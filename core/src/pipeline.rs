@@ -113,7 +113,7 @@ fn whole_boxes(
     open_boxes(&templates).next()?;
     let settings = FitSettings::default();
     let sight = open_box::Sight::new(cloud, readings, scene)?;
-    let found = open_box::find(&sight, scene, sizes, &settings);
+    let found = open_box::find(&sight, scene, sizes, &settings, judgement);
     let mut answer = Answer {
         objects: Vec::new(),
         object_of_point: vec![-1; cloud.points.len()],

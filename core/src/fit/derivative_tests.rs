@@ -6,7 +6,7 @@ use super::body::{FittedBody, Parameters};
 use super::layout::*;
 use super::panel::Panel;
 use super::priors::priors;
-use super::problem::Problem;
+use super::problem::{Problem, Support};
 use super::readings::{EndReading, FaceReading, PartReadings};
 use super::roles::Role;
 use super::row::Row;
@@ -110,7 +110,7 @@ fn rows_have_the_derivatives_of_their_values() {
 fn the_gradient_is_that_of_the_whole_objective() {
     let mut draw = Draw::new(4);
     let mut cases = 0;
-    for _ in 0..BODIES {
+    for number in 0..BODIES {
         let body = draw.body();
         let parts = all_roles().into_iter().map(|role| {
             let mut near = || body.to_input(&(draw.vector(0.25) + Vec3::new(0.0, 0.0, body.get(HEIGHT))));
@@ -127,7 +127,8 @@ fn the_gradient_is_that_of_the_whole_objective() {
         });
         let parts = parts.collect();
         let normal = (body.input_from_object * (Vec3::z() + draw.vector(0.05))).normalize();
-        let support = Some(Plane { normal, distance: draw.between(-0.1, 0.1) });
+        let plane = Plane { normal, distance: draw.between(-0.1, 0.1) };
+        let support = Some(Support { plane, is_level: number % 2 == 0 });
         let problem = Problem { parts, support, priors: priors(&draw.body()), settings: FitSettings::default() };
         let told = problem.linearize(&body, 5.0).gradient;
         for place in 0..PARAMETER_COUNT {

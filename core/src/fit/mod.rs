@@ -39,7 +39,7 @@ pub(crate) use known_size::{best_match, best_match_within, share_of_score, with_
 pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
 pub(crate) use priors::priors;
-pub(crate) use problem::Problem;
+pub(crate) use problem::{Problem, Support};
 pub(crate) use readings::{PartEnds, PartReadings, PartSegment};
 pub(crate) use sensor::Sensor;
 pub(crate) use solve::{solve, Solution};

@@ -4,7 +4,7 @@ use super::known_size::{with_known_size, KnownSize};
 use super::layout::{lean_name, HEIGHT, LENGTH, RACK, THICKNESS, WIDTH};
 use super::panel::{Panel, NEAR};
 use super::priors::priors;
-use super::problem::Problem;
+use super::problem::{Problem, Support};
 use super::readings::{PartEnds, PartReadings, PartSegment};
 use super::refusal::NotFitted;
 use super::roles::Role;
@@ -102,7 +102,7 @@ fn fit(
     let stands = |plane: &Plane| plane.height_of(&bottom).abs() < settings.stands_on_support_m;
     let problem = Problem {
         parts: segments.iter().map(|segment| PartReadings::new(segment, first, sensor, settings)).collect(),
-        support: scene.support.filter(stands),
+        support: scene.support.filter(stands).map(|plane| Support { plane, is_level: true }),
         priors: priors(first),
         settings: *settings,
     };

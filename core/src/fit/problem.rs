@@ -1,7 +1,7 @@
 use nalgebra::DMatrix;
 
 use super::body::{FittedBody, Parameters};
-use super::layout::{place_of_slot, PARAMETER_COUNT, SHIFT, SLOT_COUNT, TURN};
+use super::layout::{place_of_slot, LENGTH, PARAMETER_COUNT, SHIFT, SLOT_COUNT, TURN, WIDTH};
 use super::panel::Panel;
 use super::priors::Prior;
 use super::readings::PartReadings;
@@ -9,12 +9,18 @@ use super::row::Row;
 use super::settings::FitSettings;
 use crate::geometry::{Plane, Vec3};
 
+/// What a box stands on, normal up: with its whole base, or, where something tilts it, over it with every corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Support {
+    pub plane: Plane,
+    pub is_level: bool,
+}
+
 /// Everything that a body is held against.
 #[derive(Debug, Clone)]
 pub struct Problem {
     pub parts: Vec<PartReadings>,
-    /// What the box stands on, normal up.
-    pub support: Option<Plane>,
+    pub support: Option<Support>,
     pub priors: Vec<Prior>,
     pub settings: FitSettings,
 }
@@ -33,6 +39,9 @@ fn cauchy(residual: f64, cut: f64) -> (f64, f64) {
     let ratio = 1.0 + (residual / cut).powi(2);
     (0.5 * cut * cut * ratio.ln(), 1.0 / ratio)
 }
+
+/// The support says as much of boxes that would sink into it, however deep.
+const FIRM: f64 = 100.0;
 
 impl Problem {
     /// At `body`, residuals beyond `cut` standard deviations losing their say.
@@ -61,29 +70,49 @@ impl Problem {
         sums
     }
 
-    /// The base's underside lies on the support.
     fn add_support(&self, sums: &mut Linearized, body: &FittedBody, cut: f64) {
         let Some(support) = self.support else { return };
         let settings = &self.settings;
-        let normal = body.input_from_object.inverse_transform_vector(&support.normal);
-        let height = support.height_of(&body.input_from_object.translation.vector);
+        let normal = body.input_from_object.inverse_transform_vector(&support.plane.normal);
         let mut block = Block::default();
-        for (value, row) in support_rows(&normal, height) {
-            let sigma = if row.1 { settings.support_sigma_m } else { settings.support_sigma_rad };
-            block.add(&Row { value, slots: row.0 }, sigma, 1.0, cut);
+        // A box may stand on something else, but in nothing.
+        let height_cut = |height: &Row| if height.value < 0.0 { FIRM * cut } else { cut };
+        if support.is_level {
+            let height = height_row(&support.plane, &normal, body, [0.0, 0.0]);
+            block.add(&height, settings.support_sigma_m, 1.0, height_cut(&height));
+            for lean in lean_rows(&normal) {
+                block.add(&lean, settings.support_sigma_rad, 1.0, cut);
+            }
+        } else {
+            let corners = CORNERS.map(|corner| height_row(&support.plane, &normal, body, corner));
+            for height in corners.iter().filter(|height| height.value < 0.0) {
+                block.add(height, settings.support_sigma_m, 1.0, height_cut(height));
+            }
         }
         block.scatter(sums, 0);
     }
 }
 
-/// Height of the object's origin (true) and lean of the support in the object's frame (false), with their derivatives.
-fn support_rows(normal: &Vec3, height: f64) -> [(f64, ([f64; SLOT_COUNT], bool)); 3] {
-    let mut slots = [[0.0; SLOT_COUNT]; 3];
-    slots[0][SHIFT..SHIFT + 3].copy_from_slice(normal.as_slice());
+/// Of the base, its rack left out, in shares of length and width.
+const CORNERS: [[f64; 2]; 4] = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+
+/// Height over the support of a point of the base, whose normal in the object's frame is `normal`.
+fn height_row(support: &Plane, normal: &Vec3, body: &FittedBody, [along, across]: [f64; 2]) -> Row {
+    let point = Vec3::new(along * body.get(LENGTH), across * body.get(WIDTH), 0.0);
+    let mut slots = [0.0; SLOT_COUNT];
+    slots[SHIFT..SHIFT + 3].copy_from_slice(normal.as_slice());
+    slots[TURN..TURN + 3].copy_from_slice(point.cross(normal).as_slice());
+    (slots[LENGTH], slots[WIDTH]) = (along * normal.x, across * normal.y);
+    Row { value: support.height_of(&body.to_input(&point)), slots }
+}
+
+/// Lean of the support in the object's frame, with its derivatives.
+fn lean_rows(normal: &Vec3) -> [Row; 2] {
+    let mut slots = [[0.0; SLOT_COUNT]; 2];
     // A turn t of the object turns the normal the other way: n x t.
-    (slots[1][TURN + 1], slots[1][TURN + 2]) = (-normal.z, normal.y);
-    (slots[2][TURN + 2], slots[2][TURN]) = (-normal.x, normal.z);
-    [(height, (slots[0], true)), (normal.x, (slots[1], false)), (normal.y, (slots[2], false))]
+    (slots[0][TURN + 1], slots[0][TURN + 2]) = (-normal.z, normal.y);
+    (slots[1][TURN + 2], slots[1][TURN]) = (-normal.x, normal.z);
+    [Row { value: normal.x, slots: slots[0] }, Row { value: normal.y, slots: slots[1] }]
 }
 
 fn add_part(sums: &mut Linearized, part: &PartReadings, body: &FittedBody, cut: f64) {

@@ -6,7 +6,7 @@ use super::forward::hinge;
 use super::layout::*;
 use super::panel::Panel;
 use super::priors::priors;
-use super::problem::Problem;
+use super::problem::{Problem, Support};
 use super::readings::{EndReading, FaceReading, PartReadings};
 use super::roles::Role;
 use super::settings::FitSettings;
@@ -98,6 +98,7 @@ fn disturbed(draw: &mut Draw, body: &FittedBody) -> FittedBody {
 fn problem(body: &FittedBody, parts: Vec<PartReadings>, start: &FittedBody) -> Problem {
     let normal = body.input_from_object * Vec3::z();
     let support = Plane { normal, distance: normal.dot(&body.input_from_object.translation.vector) };
+    let support = Support { plane: support, is_level: true };
     Problem { parts, support: Some(support), priors: priors(start), settings: FitSettings::default() }
 }
 

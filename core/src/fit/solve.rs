@@ -60,27 +60,29 @@ impl<'a> Descent<'a> {
     fn run(&mut self, most: usize) -> Result<(), NotFitted> {
         while self.steps < most {
             self.steps += 1;
-            let free = factor(&self.at.curvature, 0.0).ok_or(NotFitted::Singular)?;
-            let newton = free.solve(&self.at.gradient);
-            if self.at.gradient.dot(&newton) < 2.0 * self.problem.settings.least_gain {
+            if self.step()? {
                 return Ok(());
             }
-            self.step()?;
         }
         Err(NotFitted::StepsSpent(most))
     }
 
-    /// One step downhill, damped until it is one.
-    fn step(&mut self) -> Result<(), NotFitted> {
+    /// One step downhill, damped until it is one; whether none was worth it.
+    fn step(&mut self) -> Result<bool, NotFitted> {
         while self.damping < MOST_DAMPING {
             let damped = factor(&self.at.curvature, self.damping).ok_or(NotFitted::Singular)?;
             let step: Parameters = -damped.solve(&self.at.gradient);
+            // As good as undamped, a step tells what is left to gain.
+            let is_free = self.damping <= FIRST_DAMPING;
+            if is_free && -self.at.gradient.dot(&step) < 2.0 * self.problem.settings.least_gain {
+                return Ok(true);
+            }
             let body = self.body.moved(&step);
             let at = self.problem.linearize(&body, self.cut);
             if at.cost < self.at.cost {
                 (self.body, self.at) = (body, at);
                 self.damping = (self.damping / 10.0).max(LEAST_DAMPING);
-                return Ok(());
+                return Ok(false);
             }
             self.damping *= 8.0;
         }

@@ -9,7 +9,7 @@ const COARSE_CELL: usize = 4;
 
 /// Takes the best, and of the rest those that leave its readings alone.
 pub fn choose(mut found: Vec<FoundBox>, width: usize) -> Vec<FoundBox> {
-    let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref());
+    let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref()) * one.probability;
     found.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     let mut out: Vec<FoundBox> = Vec::new();
     let mut taken = BTreeSet::new();

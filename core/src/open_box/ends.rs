@@ -14,15 +14,31 @@ const MODEL_M: f64 = 0.005;
 const NEAR: usize = 2;
 const FAR: usize = 3;
 
-/// What ends a part at each of its ends; `None` where its readings cannot tell: the fold of a flap is where planes meet.
-pub fn ends(sight: &Sight, body: &FittedBody, present: &Present, role: Role) -> [Option<EdgeKind>; 4] {
+/// Whether a part's readings tell where it ends there: the fold of a flap is where planes meet.
+fn is_told(present: &Present, role: Role, end: usize) -> bool {
     let k = role.side();
-    let is_told = |end: usize| match role {
+    match role {
         Role::Base => false,
         Role::Side(_) => end != NEAR || !present.flaps[k],
         Role::Flap(_) => end != NEAR && (end != FAR || !present.tucks[k]),
         Role::Tuck(_) => end != NEAR,
-    };
+    }
+}
+
+/// Of the free edges of a flap or tuck flap, the share beyond which its surface goes on: it is no panel of its own.
+pub fn goes_on(sight: &Sight, body: &FittedBody, present: &Present, role: Role) -> f64 {
+    if !matches!(role, Role::Flap(_) | Role::Tuck(_)) {
+        return 0.0;
+    }
+    let told: Vec<usize> = (0..4).filter(|&end| is_told(present, role, end)).collect();
+    let sheet = Sheet::new(body, role, &sight.eye);
+    let on = told.iter().filter(|&&end| kind(sight, &sheet, end).is_none()).count();
+    on as f64 / told.len().max(1) as f64
+}
+
+/// What ends a part at each of its ends; `None` where its readings cannot tell.
+pub fn ends(sight: &Sight, body: &FittedBody, present: &Present, role: Role) -> [Option<EdgeKind>; 4] {
+    let is_told = |end: usize| is_told(present, role, end);
     let sheet = Sheet::new(body, role, &sight.eye);
     [0, 1, 2, 3].map(|end| if is_told(end) { kind(sight, &sheet, end) } else { None })
 }

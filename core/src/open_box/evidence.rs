@@ -119,7 +119,8 @@ impl<'a> Sheet<'a> {
     pub fn look(&self, sight: &Sight, model_m: f64) -> Evidence {
         let mut out =
             Evidence { is_inner: matches!(self.role, Role::Side(_)) && self.face > 0.0, ..Evidence::default() };
-        let cell = self.width_m * self.length_m * (1.0 - 2.0 * END_SHARE).powi(2) / (ALONG * AWAY) as f64;
+        let cell =
+            self.width_m.max(0.0) * self.length_m.max(0.0) * (1.0 - 2.0 * END_SHARE).powi(2) / (ALONG * AWAY) as f64;
         let share = |i: usize, n: usize| END_SHARE + (1.0 - 2.0 * END_SHARE) * (i as f64 + 0.5) / n as f64;
         for i in 0..ALONG {
             for j in 0..AWAY {

@@ -1,16 +1,18 @@
 //! What the judgement of a fitted box, and of each of its panels, rests on.
 
+use super::ends::goes_on;
 use super::evidence::{Evidence, Sheet};
 use super::grow::{FoundBox, FINE_M};
 use super::lean::lean;
+use super::owners::Owners;
 use super::sight::Sight;
-use crate::fit::{layout, FittedBody, Role};
+use crate::fit::{layout, Role};
 
 /// Named values, always in the same order.
 pub type Features = Vec<(&'static str, f64)>;
 
 /// Their names, in order.
-pub const BOX_FEATURES: [&str; 15] = [
+pub const BOX_FEATURES: [&str; 23] = [
     "one",
     "on_walls",
     "on_inner_faces",
@@ -26,8 +28,16 @@ pub const BOX_FEATURES: [&str; 15] = [
     "shorter_edge",
     "height",
     "slimness",
+    "held",
+    "flaps_go_on",
+    "hidden_and_closed",
+    "flaps_and_inside",
+    "walls_by_height",
+    "hidden_behind_flaps",
+    "hidden_by_size",
+    "lid_and_inside",
 ];
-pub const PART_FEATURES: [&str; 12] = [
+pub const PART_FEATURES: [&str; 14] = [
     "one",
     "is_base",
     "is_flap",
@@ -40,6 +50,8 @@ pub const PART_FEATURES: [&str; 12] = [
     "length",
     "is_inner",
     "few_and_hidden",
+    "held",
+    "goes_on",
 ];
 
 /// A flap that is open further counts as open: flaps that lie closed look like a lid.
@@ -51,12 +63,17 @@ fn amount(readings: f64) -> f64 {
     (readings.max(0.0) / UNIT).ln_1p()
 }
 
+/// Whether there is any, by degrees.
+fn some(amount: f64) -> f64 {
+    1.0 - (-amount).exp()
+}
+
 fn share(part: f64, rest: f64) -> f64 {
     part / (part + rest + 1.0)
 }
 
 /// Of the whole box.
-pub fn of_box(sight: &Sight, found: &FoundBox) -> Features {
+pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
     let body = &found.solution.body;
     let opening = Sheet::of_opening(body, &sight.eye).look(sight, FINE_M);
     let readings = |wanted: &dyn Fn(Role) -> bool| -> f64 {
@@ -77,28 +94,58 @@ pub fn of_box(sight: &Sight, found: &FoundBox) -> Features {
     let seen = |wanted: &dyn Fn(Role) -> bool| {
         found.labels.parts.iter().filter(|(role, points)| wanted(*role) && !points.is_empty()).count() as f64
     };
+    let each = (found.labels.stride * found.labels.stride) as u32;
+    // The base's segment is often the floor's.
+    let panels = found.labels.parts.iter().filter(|(role, _)| *role != Role::Base);
+    let flaps = panels.clone().filter(|(role, points)| matches!(role, Role::Flap(_)) && !points.is_empty());
+    let go_on: f64 = flaps.map(|(role, _)| goes_on(sight, body, &found.present, *role)).sum();
     let (l, w, h) = (body.get(layout::LENGTH), body.get(layout::WIDTH), body.get(layout::HEIGHT));
+    let on_walls = amount(readings(&|role| matches!(role, Role::Side(_))));
+    let on_inner = amount(inner);
+    let looked_inside = amount(opening.through);
+    let closed_over = share(opening.met, opening.through);
+    let on_open = amount(readings(&|role| matches!(role, Role::Flap(k) if is_open(k))));
+    let on_closed = amount(readings(&|role| matches!(role, Role::Flap(k) if !is_open(k))));
+    let walls_hidden = share(walls.hidden, walls.met + walls.through);
+    let flaps_seen = seen(&|role| matches!(role, Role::Flap(_)));
+    let (shorter_edge, height) = (l.min(w).max(0.01).ln(), h.max(0.01).ln());
     vec![
         ("one", 1.0),
-        ("on_walls", amount(readings(&|role| matches!(role, Role::Side(_))))),
-        ("on_inner_faces", amount(inner)),
-        ("looked_inside", amount(opening.through)),
-        ("closed_over", share(opening.met, opening.through)),
-        ("on_open_flaps", amount(readings(&|role| matches!(role, Role::Flap(k) if is_open(k))))),
-        ("on_closed_flaps", amount(readings(&|role| matches!(role, Role::Flap(k) if !is_open(k))))),
+        ("on_walls", on_walls),
+        ("on_inner_faces", on_inner),
+        ("looked_inside", looked_inside),
+        ("closed_over", closed_over),
+        ("on_open_flaps", on_open),
+        ("on_closed_flaps", on_closed),
         ("looked_through", share(through, met)),
-        ("walls_hidden", share(walls.hidden, walls.met + walls.through)),
+        ("walls_hidden", walls_hidden),
         ("sides_seen", seen(&|role| matches!(role, Role::Side(_)))),
-        ("flaps_seen", seen(&|role| matches!(role, Role::Flap(_)))),
+        ("flaps_seen", flaps_seen),
         ("base_seen", seen(&|role| role == Role::Base)),
-        ("shorter_edge", l.min(w).max(0.01).ln()),
-        ("height", h.max(0.01).ln()),
+        ("shorter_edge", shorter_edge),
+        ("height", height),
         ("slimness", (l.max(w) / l.min(w).max(0.01)).ln()),
+        ("held", owners.held(panels.flat_map(|(_, points)| points), each)),
+        ("flaps_go_on", go_on / flaps_seen.max(1.0)),
+        ("hidden_and_closed", walls_hidden * closed_over),
+        ("flaps_and_inside", flaps_seen * some(looked_inside)),
+        ("walls_by_height", height * on_walls),
+        ("hidden_behind_flaps", walls_hidden * some(on_open)),
+        ("hidden_by_size", shorter_edge * walls_hidden),
+        ("lid_and_inside", on_closed * some(on_inner)),
     ]
 }
 
 /// Of one panel: `readings` are those it was given.
-pub fn of_part(sight: &Sight, body: &FittedBody, role: Role, readings: &[u32], evidence: &Evidence) -> Features {
+pub fn of_part(
+    sight: &Sight,
+    owners: &Owners,
+    found: &FoundBox,
+    role: Role,
+    readings: &[u32],
+    evidence: &Evidence,
+) -> Features {
+    let body = &found.solution.body;
     let of = |wanted: bool| f64::from(u8::from(wanted));
     let Evidence { met, through, hidden, .. } = *evidence;
     let length = match role {
@@ -120,5 +167,7 @@ pub fn of_part(sight: &Sight, body: &FittedBody, role: Role, readings: &[u32], e
         ("length", beyond(length)),
         ("is_inner", of(evidence.is_inner)),
         ("few_and_hidden", share(hidden, met + through) / (1.0 + readings.len() as f64 / UNIT)),
+        ("held", if role == Role::Base { 1.0 } else { owners.held(readings.iter(), 1) }),
+        ("goes_on", goes_on(sight, body, &found.present, role)),
     ]
 }

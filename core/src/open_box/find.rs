@@ -1,7 +1,10 @@
 use super::choose::choose;
+use super::features;
 use super::flap_scan::ScannedFlap;
 use super::grow::{finish, grow, FoundBox, COARSE_M};
 use super::hanging::{scan_flaps, COARSE_SCAN};
+use super::judgement::{probability, Judgement};
+use super::owners::Owners;
 use super::shells::{outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
@@ -16,7 +19,14 @@ const PROPOSED_SIGMA_M: f64 = 0.01;
 /// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings.
 ///
 /// Of rivals those that have one of the given `sizes` win.
-pub fn find(sight: &Sight, scene: &Scene, sizes: &[KnownSize], settings: &FitSettings) -> Vec<FoundBox> {
+pub fn find(
+    sight: &Sight,
+    scene: &Scene,
+    sizes: &[KnownSize],
+    settings: &FitSettings,
+    judgement: Option<&Judgement>,
+) -> Vec<FoundBox> {
+    let owners = Owners::new(scene, sight.points.len());
     let mut shells = shells(sight, scene);
     for shell in &mut shells {
         shell.flaps = scan_flaps(sight, &body_of(&shell.proposal), COARSE_M, COARSE_SCAN);
@@ -25,8 +35,13 @@ pub fn find(sight: &Sight, scene: &Scene, sizes: &[KnownSize], settings: &FitSet
     }
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
     let grown = best_of_rivals(&shells).into_iter().filter_map(|shell| grow(sight, shell, settings));
-    let found = grown.map(|one| FoundBox { size: best_match(&one.solution, sizes), ..one }).collect();
-    choose(found, sight.width).into_iter().filter_map(|one| finish(sight, one, sizes, settings)).collect()
+    let judged = |one: &FoundBox| {
+        let odds = |judgement: &Judgement| judgement.of_box(&features::of_box(sight, &owners, one)).0;
+        judgement.map_or(1.0, |judgement| probability(odds(judgement)))
+    };
+    let weighed = |one: FoundBox| FoundBox { probability: judged(&one), size: best_match(&one.solution, sizes), ..one };
+    let found = grown.map(weighed).collect();
+    choose(found, sight.width).into_iter().filter_map(|one| finish(sight, &owners, one, sizes, settings)).collect()
 }
 
 /// Without those that lie upon enough better ones.

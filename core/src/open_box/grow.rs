@@ -3,7 +3,9 @@
 use super::evidence::{Evidence, Sheet};
 use super::features::{self, Features};
 use super::hanging::{scan_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
+use super::owners::Owners;
 use super::refit::refit;
+use super::settle::is_sunk;
 use super::shells::Shell;
 use super::sight::Sight;
 use super::start::body_of;
@@ -21,6 +23,8 @@ pub struct FoundBox {
     pub labels: Labels,
     pub evidence: Vec<(Role, Evidence)>,
     pub score: f64,
+    /// That it is a box at all, while boxes compete; 1 where nobody judges.
+    pub probability: f64,
     /// The given size that comes nearest; of a finished box, the one that it has.
     pub size: Option<SizeMatch>,
     pub features: Features,
@@ -41,34 +45,74 @@ pub fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<Foun
     let (body, present) = with_flaps(&body_of(&shell.proposal), &shell.flaps);
     let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
-    check(&solution.body).ok()?;
+    sound(&solution.body)?;
     let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, ONCE_FITTED_M, FINE_SCAN));
     let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
     drop_unsure(sight, &body, &mut labels);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
-    check(&solution.body).ok()?;
+    sound(&solution.body)?;
     Some(weigh(sight, solution, present, COARSE_STRIDE))
 }
 
 /// A box that has won, with its tuck flaps, fitted to all of its readings; it takes the one of `sizes` that it matches, if any.
-pub fn finish(sight: &Sight, found: FoundBox, sizes: &[KnownSize], settings: &FitSettings) -> Option<FoundBox> {
+pub fn finish(
+    sight: &Sight,
+    owners: &Owners,
+    found: FoundBox,
+    sizes: &[KnownSize],
+    settings: &FitSettings,
+) -> Option<FoundBox> {
     let turn = canonical_turn(&found.solution.body, Some(sight.eye));
     let (body, present) = (found.solution.body.turned(turn), found.present.turned(turn));
     let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);
     let solution = refit(sight, &body, &present, &labels, settings).ok()?;
+    sound(&solution.body)?;
+    let (solution, present) = look_again(sight, solution, present, settings);
     let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
-    check(&solution.body).ok()?;
+    sound(&solution.body)?;
     let mut out = FoundBox { size, ..weigh(sight, solution, present, 1) };
-    out.features = features::of_box(sight, &out);
+    out.features = features::of_box(sight, owners, &out);
     let of = |(role, evidence): &(Role, Evidence)| {
         let points = out.labels.of(*role);
-        (!points.is_empty()).then(|| (*role, features::of_part(sight, &out.solution.body, *role, points, evidence)))
+        (!points.is_empty()).then(|| (*role, features::of_part(sight, owners, &out, *role, points, evidence)))
     };
     out.part_features = out.evidence.iter().filter_map(of).collect();
     Some(out)
 }
+
+/// A body that may be a box's.
+fn sound(body: &FittedBody) -> Option<()> {
+    (check(body).is_ok() && !is_sunk(body)).then_some(())
+}
+
+/// A flap that was missed, or fitted where little lies, is taken from a scan of its edge where now more is met.
+fn look_again(sight: &Sight, solution: Solution, present: Present, settings: &FitSettings) -> (Solution, Present) {
+    let mut flaps = scan_flaps(sight, &solution.body, FINE_M, FINE_SCAN);
+    let fitted_score = |k: usize| {
+        let evidence = Sheet::new(&solution.body, Role::Flap(k), &sight.eye).look(sight, FINE_M);
+        evidence.met - 2.0 * evidence.through
+    };
+    for (k, flap) in flaps.iter_mut().enumerate() {
+        *flap = flap.filter(|flap| !present.flaps[k] || flap.score() > BETTER * fitted_score(k).max(0.0) + BETTER_PX);
+    }
+    if flaps.iter().all(Option::is_none) {
+        return (solution, present);
+    }
+    let (body, scanned) = with_flaps(&solution.body, &flaps);
+    let both = Present { flaps: std::array::from_fn(|k| present.flaps[k] || scanned.flaps[k]), ..present };
+    let mut labels = label(sight, &body, &both, FINE_M, 1);
+    drop_unsure(sight, &body, &mut labels);
+    match refit(sight, &body, &both, &labels, settings) {
+        Ok(again) if sound(&again.body).is_some() => (again, both),
+        _ => (solution, present),
+    }
+}
+
+/// A scan has this much more than the fit.
+const BETTER: f64 = 1.25;
+const BETTER_PX: f64 = 100.0;
 
 /// Readings on its panels, each counted once, less twice those through them, less those that close the opening and are of no
 /// flap. The base says nothing: the floor agrees as well.
@@ -93,5 +137,15 @@ fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize) -> 
     let look = |role: Role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M));
     let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(look).collect();
     let score = score(sight, &solution.body, &labels, &evidence);
-    FoundBox { solution, present, labels, evidence, score, size: None, features: Vec::new(), part_features: Vec::new() }
+    FoundBox {
+        solution,
+        present,
+        labels,
+        evidence,
+        score,
+        probability: 1.0,
+        size: None,
+        features: Vec::new(),
+        part_features: Vec::new(),
+    }
 }

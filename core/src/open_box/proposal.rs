@@ -34,10 +34,10 @@ enum ShownBy {
 
 /// Board taken for what is seen from inside, metres.
 const BOARD_M: f64 = 0.004;
-const SIZES_M: [f64; 2] = [0.05, 1.0];
-const HEIGHTS_M: [f64; 2] = [0.025, 0.8];
+pub const SIZES_M: [f64; 2] = [0.05, 1.0];
+pub const HEIGHTS_M: [f64; 2] = [0.025, 0.8];
 /// Walls are within this of square to the box's directions (cosine).
-const LEAST_COS: f64 = 0.985;
+pub const LEAST_COS: f64 = 0.985;
 /// Places nearer than this are one.
 const SAME_M: f64 = 0.008;
 /// A wall reaches this far, or this share of it, beyond its neighbours: what is more belongs to something else.

@@ -1,19 +1,18 @@
 use super::ends::ends;
 use super::evidence::Sheet;
+use super::settle::{lowest_m, settled, LEVEL_COS};
 use super::sight::Sight;
 use super::surfaces::{Labels, Present};
 use crate::cloud::CloudView;
 use crate::fit::{
     priors, solve, FitSettings, FittedBody, NotFitted, PartEnds, PartReadings, PartSegment, Problem, Sensor, Solution,
+    Support,
 };
 use crate::geometry::{Plane, Vec3};
 
 /// Fewer readings tell nothing of a panel.
 const LEAST_READINGS: usize = 60;
 const LEAST_SAMPLES: usize = 8;
-
-/// A box that leans more than this does not stand on the support.
-const LEVEL_COS: f64 = 0.9994;
 
 /// The body fitted to readings that are given to its panels (eq. 81, 82), in the level frame.
 ///
@@ -26,6 +25,7 @@ pub fn refit(
     labels: &Labels,
     settings: &FitSettings,
 ) -> Result<Solution, NotFitted> {
+    let body = &settled(body);
     let cloud =
         CloudView { points: &sight.points, width: sight.width, height: sight.height, viewpoint: Some(sight.eye) };
     let used: Vec<_> = labels
@@ -42,12 +42,12 @@ pub fn refit(
         let told = PartEnds::Told(ends(sight, body, present, *role));
         PartReadings::new(&PartSegment { role: *role, normal, center, ends: told, points }, body, &sensor, settings)
     });
-    let support = Plane { normal: Vec3::z(), distance: 0.0 };
-    let lean = (body.input_from_object.rotation * Vec3::z()).z;
-    let stands = body.input_from_object.translation.vector.z.abs() < settings.stands_on_support_m && lean > LEVEL_COS;
+    let up = (body.input_from_object.rotation * Vec3::z()).z;
+    let stands = lowest_m(body).abs() < settings.stands_on_support_m;
+    let plane = Plane { normal: Vec3::z(), distance: 0.0 };
     let problem = Problem {
         parts: parts.collect(),
-        support: stands.then_some(support),
+        support: stands.then_some(Support { plane, is_level: up > LEVEL_COS }),
         priors: priors(body),
         settings: *settings,
     };

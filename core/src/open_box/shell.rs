@@ -38,6 +38,20 @@ pub struct Rays {
     rows: usize,
 }
 
+/// The rays, and the eye, along the directions that many boxes share.
+pub struct RaysAlong {
+    axes: [Vec3; 3],
+    eye: [f64; 3],
+    /// With their inverses.
+    rays: Vec<([f64; 3], [f64; 3])>,
+}
+
+impl RaysAlong {
+    pub fn is_of(&self, proposal: &Proposal) -> bool {
+        self.axes == [proposal.axes[0], proposal.axes[1], proposal.up]
+    }
+}
+
 impl Rays {
     pub fn new(sight: &Sight) -> Self {
         let (columns, rows) = (sight.width.div_ceil(STRIDE), sight.height.div_ceil(STRIDE));
@@ -54,23 +68,30 @@ impl Rays {
         Self { to_reading, tolerance, columns, rows }
     }
 
-    /// Looks at a box's shell.
-    pub fn look(&self, sight: &Sight, proposal: &Proposal) -> ShellLook {
+    /// The rays along a box's directions.
+    pub fn along(&self, sight: &Sight, proposal: &Proposal) -> RaysAlong {
+        let axes = [proposal.axes[0], proposal.axes[1], proposal.up];
+        let of = |v: &Vec3| axes.each_ref().map(|axis| v.dot(axis));
+        let ray = |v: &Vec3| (of(v), of(v).map(|along| 1.0 / along));
+        RaysAlong { axes, eye: of(&sight.eye), rays: self.to_reading.iter().map(ray).collect() }
+    }
+
+    /// Looks at a box's shell; `turned` are the rays along its directions.
+    pub fn look(&self, sight: &Sight, proposal: &Proposal, turned: &RaysAlong) -> ShellLook {
         let mut looked = ShellLook::default();
         let Some([left, right, top, bottom]) = self.bounds(sight, proposal) else { return looked };
-        let eye = [sight.eye.dot(&proposal.axes[0]), sight.eye.dot(&proposal.axes[1]), sight.eye.dot(&proposal.up)];
+        let eye = turned.eye;
         let [x, y] = proposal.spans;
         let slabs = [x, y, proposal.heights];
         let pixels = (STRIDE * STRIDE) as f64;
         for row in top..=bottom {
             for column in left..=right {
                 let k = row * self.columns + column;
-                let ray = self.to_reading[k];
-                if !ray.x.is_finite() {
+                let (ray, inverse) = &turned.rays[k];
+                if !ray[0].is_finite() {
                     continue;
                 }
-                let ray = [ray.dot(&proposal.axes[0]), ray.dot(&proposal.axes[1]), ray.dot(&proposal.up)];
-                let Some((face, at)) = meet(&eye, &ray, &slabs) else { continue };
+                let Some((face, at)) = meet(&eye, ray, inverse, &slabs) else { continue };
                 if face.is_inner && (eye[2] + ray[2] - slabs[2][1]).abs() < LID_M + self.tolerance[k] * ray[2].abs() {
                     looked.lid += pixels;
                     continue;
@@ -120,10 +141,10 @@ struct Face {
 }
 
 /// The face that a ray meets of a box that is open at the top, and where, the reading being at 1.
-fn meet(eye: &[f64; 3], ray: &[f64; 3], slabs: &[[f64; 2]; 3]) -> Option<(Face, f64)> {
+fn meet(eye: &[f64; 3], ray: &[f64; 3], inverse: &[f64; 3], slabs: &[[f64; 2]; 3]) -> Option<(Face, f64)> {
     let (mut entry, mut exit) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
     for axis in 0..3 {
-        let (a, b) = ((slabs[axis][0] - eye[axis]) / ray[axis], (slabs[axis][1] - eye[axis]) / ray[axis]);
+        let (a, b) = ((slabs[axis][0] - eye[axis]) * inverse[axis], (slabs[axis][1] - eye[axis]) * inverse[axis]);
         let (near, far) = if a < b { (a, b) } else { (b, a) };
         if near > entry.0 {
             entry = (near, axis);

@@ -1,9 +1,10 @@
 //! The proposals that are worth a closer look.
 
 use super::flap_scan::ScannedFlap;
+use super::lids::of_lids;
 use super::patch::Patch;
 use super::proposal::{proposals, Proposal, OF_FLAPS};
-use super::shell::{Rays, ShellLook};
+use super::shell::{Rays, RaysAlong, ShellLook};
 use super::sight::Sight;
 use super::upright::ways_up;
 use super::yaw::yaws;
@@ -28,8 +29,12 @@ pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
     let patches = Patch::of_things(scene, sight);
     let rays = Rays::new(sight);
     let mut all = Vec::new();
+    let mut turned: Option<RaysAlong> = None;
     for proposal in all_proposals(&patches) {
-        let looked = rays.look(sight, &proposal);
+        // Proposals come by their directions.
+        let along = turned.take().filter(|rays| rays.is_of(&proposal)).unwrap_or_else(|| rays.along(sight, &proposal));
+        let looked = rays.look(sight, &proposal, &along);
+        turned = Some(along);
         let score = looked.score() + OF_FLAPS * proposal.on_flaps;
         if score > LEAST_SCORE {
             all.push(Shell { proposal, looked, score, flaps: [None; 4] });
@@ -54,7 +59,12 @@ fn all_proposals(patches: &[Patch]) -> Vec<Proposal> {
     for up in ways_up(patches) {
         let x = (Vec3::x() - up * up.x).normalize();
         let frame = [x, up.cross(&x), up];
-        out.extend(yaws(patches, &frame).into_iter().flat_map(|yaw| proposals(patches, &frame, yaw)));
+        for yaw in yaws(patches, &frame) {
+            out.extend(proposals(patches, &frame, yaw));
+            if up == Vec3::z() {
+                out.extend(of_lids(patches, &frame, yaw));
+            }
+        }
     }
     out
 }

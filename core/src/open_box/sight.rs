@@ -78,7 +78,8 @@ impl<'a> Sight<'a> {
     /// The pixel that sees a point, where the image has it.
     pub fn index(&self, point: &Vec3) -> Option<usize> {
         let [x, y] = self.pixel(point)?;
-        let (x, y) = (x.round(), y.round());
+        // Half a pixel further, so that the whole part is the nearest.
+        let (x, y) = (x + 0.5, y + 0.5);
         let within = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64;
         within.then(|| y as usize * self.width + x as usize)
     }

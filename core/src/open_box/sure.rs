@@ -8,7 +8,7 @@ use crate::fit::{layout, FittedBody, Role};
 /// Readings of other surfaces lean more than this off the panel that they were given to: the tangent.
 const MOST_LEAN: f64 = 0.35;
 /// Parts of fewer readings are not called seen.
-const LEAST_READINGS: usize = 220;
+const LEAST_READINGS: usize = 120;
 
 /// Parts whose readings are few, or lie across them.
 pub fn drop_unsure(sight: &Sight, body: &FittedBody, labels: &mut Labels) {

@@ -2,7 +2,7 @@
 
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Rim, Role};
-use crate::geometry::Vec3;
+use crate::geometry::{Plane, Vec3};
 
 /// The parts of a body that readings are given to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -80,10 +80,14 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, 
             let ray = point - sight.eye;
             let range = ray.norm();
             let sigma3 = 3.0 * sight.sigma_m(range) / range;
+            let most = sigma3 * range + model_m;
             // The support takes what it is nearest to, but for the base upon it.
             let on_support = point.z.abs() / (sigma3 * ray.z.abs() + model_m);
             let mut best = (on_support.min(1.0), usize::MAX);
             for (number, panel) in panels.iter().enumerate() {
+                if panel.is_far(&q, most) {
+                    continue;
+                }
                 let Some((off, reach)) = panel.off(&q, &ray) else { continue };
                 let share = off.abs() / (sigma3 * reach + model_m);
                 if share < best.0 || (panel.role == Role::Base && share < 1.0 && best.1 == usize::MAX) {
@@ -121,6 +125,9 @@ pub struct Surface {
     curl: f64,
     /// Of a tuck flap: its hinge in the rim's frame.
     from: [f64; 2],
+    /// The flat panel's plane in the object's frame, and how far off it the face may lie.
+    plane: Plane,
+    slack_m: f64,
 }
 
 impl Surface {
@@ -164,13 +171,21 @@ impl Surface {
             Role::Side(_) => -at.inward,
             _ => cos * (at.above - from[1]) - sin * (at.inward - from[0]),
         };
+        let half_board_m = body.get(layout::THICKNESS).max(0.0) / 2.0;
+        let (point, bow_m) = match role {
+            Role::Base => (Vec3::z() * (2.0 * half_board_m), 0.0),
+            Role::Side(_) => (rim.place(0.0, 0.0, 0.0), body.get(layout::bulge(k)).abs()),
+            _ => (rim.place(0.0, from[0], from[1]), curl.abs() * (length_m + BEYOND_M).powi(2) / 2.0),
+        };
         Self {
             role,
             rim,
+            plane: Plane { normal, distance: normal.dot(&point) },
+            slack_m: half_board_m + bow_m,
             rims: [0, 1, 2, 3].map(|k| Rim::new(body, k)),
             edge_half_m: body.edge_m(k) / 2.0,
             height_m: body.get(layout::HEIGHT),
-            half_board_m: body.get(layout::THICKNESS).max(0.0) / 2.0,
+            half_board_m,
             board_m: body.get(layout::THICKNESS).max(0.0),
             face: height.signum(),
             normal: turn * normal,
@@ -196,6 +211,11 @@ impl Surface {
             _ => self.cos * (at.inward - self.from[0]) + self.sin * (at.above - self.from[1]),
         };
         Some([at.along, away, off])
+    }
+
+    /// Whether a point of the object's frame lies further than `most` off the face, whatever its ends.
+    fn is_far(&self, q: &Vec3, most: f64) -> bool {
+        self.plane.height_of(q).abs() > most + self.slack_m
     }
 
     /// How far off the face a point of the object's frame lies, and the ray's share along the normal; `None` beyond its ends.

@@ -21,7 +21,7 @@ from boxwright.types.model import Object
 RIDGE = 0.5
 """Weight of the squared coefficients, of features scaled to a spread of 1, against one example."""
 STEPS = 60
-RIGHT_SHARE = 0.5
+RIGHT_SHARE = 0.25
 """A box is right when its right less its wrong panels are at least this share of those in the cloud."""
 
 _OBJECT = msgspec.json.Decoder(Object)

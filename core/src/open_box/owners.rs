@@ -1,0 +1,44 @@
+//! Which segment each reading belongs to: a panel holds all of its segment, what is carved out of something larger holds a piece.
+
+use crate::perception::{Scene, BACKGROUND};
+
+/// Segments of things, by reading.
+pub struct Owners {
+    /// `NONE` of readings in no segment, and of the room's.
+    segment_of: Vec<u16>,
+    readings_of: Vec<u32>,
+}
+
+const NONE: u16 = u16::MAX;
+
+impl Owners {
+    pub fn new(scene: &Scene, point_count: usize) -> Self {
+        let segments = &scene.segments;
+        let mut segment_of = vec![NONE; point_count];
+        for s in (0..segments.len().min(usize::from(NONE))).filter(|&s| segments.group[s] != BACKGROUND) {
+            segments.points_of(s).iter().for_each(|&point| segment_of[point as usize] = s as u16);
+        }
+        let readings_of = (0..segments.len()).map(|s| segments.points_of(s).len() as u32).collect();
+        Self { segment_of, readings_of }
+    }
+
+    /// Of the segments that these readings belong to, the share that they hold, each standing for `each`; weighed by
+    /// readings, 1 where they belong to none.
+    pub fn held<'a>(&self, readings: impl Iterator<Item = &'a u32>, each: u32) -> f64 {
+        let mut counts = vec![0_u32; self.readings_of.len()];
+        for &reading in readings {
+            if let Some(count) = counts.get_mut(usize::from(self.segment_of[reading as usize])) {
+                *count += each;
+            }
+        }
+        let total: u32 = counts.iter().sum();
+        let share =
+            |(count, all): (&u32, &u32)| f64::from(*count) * f64::from((*count).min(*all)) / f64::from((*all).max(1));
+        let held: f64 = counts.iter().zip(&self.readings_of).map(share).sum();
+        if total == 0 {
+            1.0
+        } else {
+            held / f64::from(total)
+        }
+    }
+}
