@@ -98,6 +98,9 @@ pub fn infer(
     Ok((scene, answer))
 }
 
+/// A box where there is none costs more than one that is missed: its odds must be better than even.
+const LEAST_PROBABILITY: f64 = 0.6;
+
 /// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint, and where no template is an open box.
 fn whole_boxes(
     cloud: &CloudView,
@@ -129,7 +132,7 @@ fn whole_boxes(
         let Some((number, probability)) = kinds.choose(&shape, &templates) else { continue };
         let told = open_box::answer(one, templates[number], probability, &sight, sizes, &settings, judgement);
         let Some((object, parts)) = told else { continue };
-        if object.probability.is_some_and(|p| p < 0.5) {
+        if object.probability.is_some_and(|p| p < LEAST_PROBABILITY) {
             continue;
         }
         for (part, points) in parts {
