@@ -104,8 +104,10 @@ fn look_again(sight: &Sight, solution: Solution, present: Present, settings: &Fi
     let both = Present { flaps: std::array::from_fn(|k| present.flaps[k] || scanned.flaps[k]), ..present };
     let mut labels = label(sight, &body, &both, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);
-    match refit(sight, &body, &both, &labels, settings) {
-        Ok(again) if sound(&again.body).is_some() => (again, both),
+    let again = refit(sight, &body, &both, &labels, settings).ok().filter(|again| sound(&again.body).is_some());
+    match again.map(|again| weigh(sight, again, both, 1)) {
+        // A flap fitted to what is none costs more than it holds.
+        Some(again) if again.score > weigh(sight, solution.clone(), present, 1).score => (again.solution, both),
         _ => (solution, present),
     }
 }

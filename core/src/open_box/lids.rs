@@ -1,7 +1,7 @@
 //! Boxes that a lid proposes: flat boxes show little of their walls, and much of the one flap that is as long as they are wide.
 
 use super::patch::Patch;
-use super::proposal::{Proposal, HEIGHTS_M, LEAST_COS, SIZES_M};
+use super::proposal::{Proposal, HEIGHTS_M, LEAST_COS, MOST_READINGS, SIZES_M};
 use crate::geometry::Vec3;
 
 /// A lid has so many readings, and is so long.
@@ -44,9 +44,6 @@ fn of_lid(patch: &Patch, axes: &[Vec3; 2], a: usize, up: &Vec3) -> Vec<Proposal>
     let is_rim = |hinge: &(f64, f64, f64)| within(hinge.1, HEIGHTS_M);
     hinges.into_iter().filter(is_rim).flat_map(on_hinge).collect()
 }
-
-/// As walls count.
-const MOST_READINGS: f64 = 6000.0;
 
 fn within(x: f64, [least, most]: [f64; 2]) -> bool {
     (least..=most).contains(&x)

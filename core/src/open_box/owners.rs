@@ -42,3 +42,24 @@ impl Owners {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_carved_out_of_something_larger_holds_a_piece() {
+        // Four readings of segment 0, ten of segment 1, two of none.
+        let segment_of = [vec![0; 4], vec![1; 10], vec![NONE; 2]].concat();
+        let owners = Owners { segment_of, readings_of: vec![4, 10] };
+        let held = |readings: &[u32], each: u32| owners.held(readings.iter(), each);
+        assert_eq!(held(&[0, 1, 2, 3], 1), 1.0);
+        assert_eq!(held(&[4, 5], 1), 0.2);
+        assert!((held(&[0, 1, 2, 3, 4, 5], 1) - (4.0 + 2.0 * 0.2) / 6.0).abs() < 1e-12);
+        // Two that each stand for two are all of four; more than all is all.
+        assert_eq!(held(&[0, 1], 2), 1.0);
+        assert_eq!(held(&[0, 1], 9), 1.0);
+        assert_eq!(held(&[14, 15], 1), 1.0);
+        assert_eq!(held(&[], 1), 1.0);
+    }
+}

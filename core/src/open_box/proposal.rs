@@ -49,6 +49,8 @@ const LEAST_COVER: f64 = 0.2;
 const MOST: usize = 400;
 const MOST_RIMS: usize = 5;
 const SAME_RIM_M: f64 = 0.010;
+/// A panel's readings count up to here.
+pub const MOST_READINGS: f64 = 6000.0;
 /// A flap shows a wall's place less well.
 pub const OF_FLAPS: f64 = 0.5;
 
@@ -149,7 +151,7 @@ fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
         if overhang > OVERHANG_M.max(OVERHANG_SHARE * (to - from)) || overlap < LEAST_COVER * (high - low) {
             continue;
         }
-        let readings = patch.readings.min(6000.0) * (overlap / (high - low));
+        let readings = patch.readings.min(MOST_READINGS) * (overlap / (high - low));
         if is_wall {
             walls += 1;
             lowest = patch.span(&axes[2])[0].min(lowest);

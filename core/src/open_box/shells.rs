@@ -61,6 +61,7 @@ fn all_proposals(patches: &[Patch]) -> Vec<Proposal> {
         let frame = [x, up.cross(&x), up];
         for yaw in yaws(patches, &frame) {
             out.extend(proposals(patches, &frame, yaw));
+            // A lid does not tell how deep a leaning box reaches.
             if up == Vec3::z() {
                 out.extend(of_lids(patches, &frame, yaw));
             }
