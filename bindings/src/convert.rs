@@ -1,6 +1,7 @@
 //! Conversions that more than one binding file needs.
 
 use boxwright_core::error::InputError;
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -24,6 +25,13 @@ pub fn rows_of_three<'a>(
         .as_slice()
         .map_err(|_| PyValueError::new_err("points are not C-contiguous; pass numpy.ascontiguousarray(points)"))?;
     Ok(flat.as_chunks::<3>().0)
+}
+
+/// A rigid motion from the rows of its matrix; its rotation is taken to be one.
+pub fn motion(rows: &[[f64; 4]; 4]) -> Isometry3<f64> {
+    let turn = Matrix3::from_fn(|i, j| rows[i][j]);
+    let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
+    Isometry3::from_parts(Translation3::new(rows[0][3], rows[1][3], rows[2][3]), turn)
 }
 
 /// Settings by name, for the core to put over its defaults; `what` names them in errors.

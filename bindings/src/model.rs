@@ -6,14 +6,14 @@ use boxwright_core::model;
 use boxwright_core::model::SegmentSet;
 use boxwright_core::open_box::{self, Judgement, SHAPE_FEATURES};
 use boxwright_core::perception::PerceptionSettings;
-use boxwright_core::pipeline::Bodies;
+use boxwright_core::pipeline::{infer_views, Bodies, InputView};
 use boxwright_core::{inference, pipeline};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::convert::{named, rows_of_three, to_python};
+use crate::convert::{motion, named, rows_of_three, to_python};
 use crate::perception::Perception;
 
 /// An object's template, read from TOML text.
@@ -226,6 +226,42 @@ fn infer(
     Ok((Perception { scene, point_count: points.len() }, Answer { answer }))
 }
 
+/// A frame of a scene as Python gives it: points, width, height, viewpoint, and first_from_frame, row by row.
+type PyFrame<'py> = (PyReadonlyArray2<'py, f32>, usize, usize, Option<[f64; 3]>, [[f64; 4]; 4]);
+
+fn input_view<'a>((points, width, height, viewpoint, rows): &'a PyFrame<'_>) -> PyResult<InputView<'a>> {
+    let points = rows_of_three(points, *width, *height)?;
+    let cloud = CloudView { points, width: *width, height: *height, viewpoint: viewpoint.map(Vec3::from) };
+    Ok(InputView { cloud, first_from_view: motion(rows) })
+}
+
+/// From several frames of one scene to its objects in one call.
+#[pyfunction]
+#[pyo3(signature = (frames, models, kinds, judgement=None, up=None, perception=None, sizes=Vec::new()))]
+#[allow(clippy::too_many_arguments)]
+fn infer_frames(
+    py: Python<'_>,
+    frames: Vec<PyFrame<'_>>,
+    models: Vec<PyRef<'_, ObjectModel>>,
+    kinds: &Kinds,
+    judgement: Option<&str>,
+    up: Option<[f64; 3]>,
+    perception: Option<&Bound<'_, PyDict>>,
+    sizes: Vec<(String, [f64; 3])>,
+) -> PyResult<(Vec<Perception>, Answer)> {
+    let settings = PerceptionSettings::with_overrides(named("perception", perception)?).map_err(to_python)?;
+    let settings = PerceptionSettings { up: up.map(Vec3::from), ..settings };
+    let views: Vec<InputView> = frames.iter().map(input_view).collect::<PyResult<_>>()?;
+    let (models, sizes) = (model_list(&models), known_sizes(&sizes)?);
+    let judgement = judgement.map(Judgement::from_json).transpose().map_err(to_python)?;
+    let inferred =
+        py.detach(|| infer_views(&views, &settings, &models, &kinds.kinds, judgement.as_ref(), &sizes));
+    let (scenes, answer) = inferred.map_err(to_python)?;
+    let counts = views.iter().map(|view| view.cloud.points.len());
+    let seen = scenes.into_iter().zip(counts).map(|(scene, point_count)| Perception { scene, point_count });
+    Ok((seen.collect(), Answer { answer }))
+}
+
 /// Understands what perception saw.
 #[pyfunction]
 #[pyo3(signature = (perception, models, search=None))]
@@ -293,6 +329,7 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
     m.add_function(wrap_pyfunction!(check_sizes, m)?)?;
     m.add_function(wrap_pyfunction!(infer, m)?)?;
+    m.add_function(wrap_pyfunction!(infer_frames, m)?)?;
     m.add_function(wrap_pyfunction!(describe, m)?)?;
     m.add_function(wrap_pyfunction!(understand, m)?)
 }

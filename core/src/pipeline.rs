@@ -1,13 +1,17 @@
 //! The paper's way through: from a cloud to articulated objects in one call.
 
+mod boxes;
 mod fitted;
+mod views;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
 
 use serde::Serialize;
 
+use boxes::whole_boxes;
 use fitted::fitted_boxes;
+pub use views::{infer_views, InputView};
 
 use crate::body::{build_object, ObjectAnswer};
 use crate::cloud::CloudView;
@@ -16,8 +20,8 @@ use crate::fit::{fit_object, size_warnings, FitSettings, KnownSize};
 use crate::free_space::{look, Facet, PartState};
 use crate::geometry::Vec3;
 use crate::inference::{find_objects, FoundObject, ObjectModel, SearchMethod, SearchSettings};
-use crate::model::{Assignment, Body, SegmentSet, Template};
-use crate::open_box::{self, open_boxes, Judgement, Kinds, Shape};
+use crate::model::{Assignment, Body, SegmentSet};
+use crate::open_box::{Judgement, Kinds, Shape};
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -96,59 +100,6 @@ pub fn infer(
         answer.stage_seconds.push(("free_space", start.elapsed().as_secs_f64()));
     }
     Ok((scene, answer))
-}
-
-/// A box where there is none costs more than one that is missed: its odds must be better than even.
-const LEAST_PROBABILITY: f64 = 0.6;
-
-/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint, and where no template is an open box.
-fn whole_boxes(
-    cloud: &CloudView,
-    scene: &Scene,
-    readings: &Readings,
-    models: &[ObjectModel],
-    kinds: &Kinds,
-    judgement: Option<&Judgement>,
-    sizes: &[KnownSize],
-) -> Option<Answer> {
-    let start = Instant::now();
-    let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
-    open_boxes(&templates).next()?;
-    let settings = FitSettings::default();
-    let sight = open_box::Sight::new(cloud, readings, scene)?;
-    let found = open_box::find(&sight, scene, sizes, &settings, judgement);
-    let mut answer = Answer {
-        objects: Vec::new(),
-        object_of_point: vec![-1; cloud.points.len()],
-        part_of_point: vec![-1; cloud.points.len()],
-        warnings: Vec::new(),
-        shapes: Vec::new(),
-        free_space: true,
-        stage_seconds: Vec::new(),
-        features: Vec::new(),
-    };
-    for one in &found {
-        let shape = Shape::of_found(one);
-        let Some((number, probability)) = kinds.choose(&shape, &templates) else { continue };
-        let told = open_box::answer(one, templates[number], probability, &sight, sizes, &settings, judgement);
-        let Some((object, parts)) = told else { continue };
-        if object.probability.is_some_and(|p| p < LEAST_PROBABILITY) {
-            continue;
-        }
-        for (part, points) in parts {
-            for point in points {
-                answer.object_of_point[point as usize] = answer.objects.len() as i16;
-                answer.part_of_point[point as usize] = part as i16;
-            }
-        }
-        let by_name = |features: &open_box::Features| features.iter().copied().collect();
-        let parts = one.part_features.iter().map(|(role, features)| (role.name(), by_name(features)));
-        answer.features.push(ObjectFeatures { of_box: by_name(&one.features), parts: parts.collect() });
-        answer.objects.push(object);
-        answer.shapes.push(Some(shape));
-    }
-    answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
-    Some(answer)
 }
 
 /// What the rays say of each part with corners, and probabilities that know it; `None` where they say nothing of the cloud.

@@ -247,6 +247,23 @@ def infer(
     fitted boxes may have, as of `check_sizes`. Raises ValueError where the cloud cannot be used, with the mend.
     """
 
+Frame = tuple[NDArray[np.float32], int, int, tuple[float, float, float] | None, list[list[float]]]
+
+def infer_frames(
+    frames: list[Frame],
+    models: list[ObjectModel],
+    kinds: Kinds,
+    judgement: str | None = None,
+    up: tuple[float, float, float] | None = None,
+    perception: dict[str, float | str] | None = None,
+    sizes: list[tuple[str, tuple[float, float, float]]] = ...,
+) -> tuple[list[Perception], Answer]:
+    """From several frames of one scene to its objects in one call, in the first frame's coordinates, as `infer` fitted.
+
+    A frame is points, width, height, viewpoint, and the rows of first_from_frame (4, 4), a rigid motion. Labels are
+    numbered on from frame to frame. Raises ValueError where a frame cannot be used, naming it.
+    """
+
 def describe(
     perception: Perception,
     points: NDArray[np.float32],

@@ -65,13 +65,20 @@ def within(points: NDArray[np.float32], roi: Bounds) -> NDArray[np.float32]:
 
     Raises ValueError where a low bound is not below its high one.
     """
+    return np.where(inside(points, roi)[:, None], points, np.float32(np.nan))
+
+
+def inside(points: NDArray[np.floating], roi: Bounds) -> NDArray[np.bool_]:
+    """Which of the points (N, 3) lie within the bounds.
+
+    Raises ValueError where a low bound is not below its high one.
+    """
     low, high = np.array(roi[0::2]), np.array(roi[1::2])
     if not np.all(low < high):
         raise ValueError(
             f"roi {','.join(map(str, roi))}: each low bound comes before its high one: xlo,xhi,ylo,yhi,zlo,zhi"
         )
-    inside = np.all((points >= low) & (points <= high), axis=1)
-    return np.where(inside[:, None], points, np.float32(np.nan))
+    return np.asarray(np.all((points >= low) & (points <= high), axis=1))
 
 
 def source_of(cloud: Cloud) -> Source:

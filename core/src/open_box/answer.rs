@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use super::grow::FoundBox;
 use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
-use super::sight::Sight;
+use super::sight::{reading_of, Sight};
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer, ScoreTermAnswer};
 use crate::fit::{fill, lean_name, wall_lean, FitSettings, KnownSize, Role, Solution};
 use crate::free_space::PartState;
@@ -13,11 +13,13 @@ use crate::model::{Body, Template};
 pub type PartReadings = Vec<(usize, Vec<u32>)>;
 
 /// A box as `model.json` tells it by a template, of that probability, and the readings of each of its parts; `None` where the template's body is no open box.
+///
+/// Coordinates are those of the first view's input; the readings of several views are numbered on from view to view.
 pub fn answer(
     found: &FoundBox,
     template: &Template,
     template_probability: Option<f64>,
-    sight: &Sight,
+    sights: &[Sight],
     sizes: &[KnownSize],
     settings: &FitSettings,
     judgement: Option<&Judgement>,
@@ -39,7 +41,8 @@ pub fn answer(
         readings.push((part, points.to_vec()));
     }
     let mut body = found.solution.body.clone();
-    body.input_from_object = sight.input_from_level * body.input_from_object;
+    let input_from_level = sights.first()?.input_from_level;
+    body.input_from_object = input_from_level * body.input_from_object;
     let solution = Solution { body, covariance: found.solution.covariance.clone() };
     for k in 0..4 {
         // A flap on a flap that was not seen hangs on nothing.
@@ -71,7 +74,7 @@ pub fn answer(
     fill(&mut object, template, &roles, &seen, &solution, settings);
     object.size = found.size.map(|size| size.answer(sizes));
     for k in (0..4).filter(|&k| !found.labels.of(Role::Side(k)).is_empty()) {
-        let points = found.labels.of(Role::Side(k)).iter().filter_map(|&index| sight.reading(index as usize));
+        let points = found.labels.of(Role::Side(k)).iter().filter_map(|&index| reading_of(sights, index as usize));
         let lean = wall_lean(points, &found.solution.body, k, settings);
         object.parameters.extend(lean.map(|lean| (lean_name(k), lean)));
     }
@@ -80,10 +83,10 @@ pub fn answer(
         object.parts[part].state = state;
     }
     let unseen: Vec<Role> = roles.iter().filter(|(part, _)| !seen[*part]).map(|(_, role)| *role).collect();
-    for told in unseen_parts(found, sight, &unseen) {
+    for told in unseen_parts(found, sights, &unseen) {
         let part = roles.iter().find(|(_, role)| *role == told.role).map(|(part, _)| *part)?;
         object.parts[part].state = Some(told.state);
-        object.parts[part].seen_from = told.seen_from.map(|d| (sight.input_from_level.rotation * d).into());
+        object.parts[part].seen_from = told.seen_from.map(|d| (input_from_level.rotation * d).into());
     }
     Some((object, readings))
 }

@@ -18,10 +18,28 @@ pub struct Evidence {
 }
 
 impl Evidence {
+    /// Of two views together.
+    pub fn and(&self, other: &Self) -> Self {
+        Self {
+            met: self.met + other.met,
+            through: self.through + other.through,
+            hidden: self.hidden + other.hidden,
+            blank: self.blank + other.blank,
+            outside: self.outside + other.outside,
+            is_inner: self.is_inner || other.is_inner,
+        }
+    }
+
     pub fn looked(&self) -> Looked {
         let Self { met, through, hidden, blank, outside, .. } = *self;
         Looked { met, through, hidden, blank, outside }
     }
+}
+
+/// What the rays of all views say of a panel of a body, each of the face that it sees (eq. 100).
+pub fn look_from_all(sights: &[Sight], body: &FittedBody, role: Role, model_m: f64) -> Evidence {
+    let look = |sight: &Sight| Sheet::new(body, role, &sight.eye).look(sight, model_m);
+    sights.iter().map(look).fold(Evidence::default(), |sum, one| sum.and(&one))
 }
 
 const ALONG: usize = 16;

@@ -33,7 +33,7 @@ pub struct FoundBox {
 
 /// How well proposals, bodies fitted once and fitted bodies are known, beside the noise.
 pub const COARSE_M: f64 = 0.007;
-const ONCE_FITTED_M: f64 = 0.005;
+pub const ONCE_FITTED_M: f64 = 0.005;
 pub const FINE_M: f64 = 0.004;
 
 /// Every so many columns and rows are asked while boxes still compete.
@@ -83,7 +83,7 @@ pub fn finish(
 }
 
 /// A body that may be a box's.
-fn sound(body: &FittedBody) -> Option<()> {
+pub fn sound(body: &FittedBody) -> Option<()> {
     (check(body).is_ok() && !is_sunk(body)).then_some(())
 }
 
@@ -132,7 +132,7 @@ fn score(sight: &Sight, body: &FittedBody, labels: &Labels, evidence: &[(Role, E
 const CLOSED_RAD: f64 = 0.3;
 
 /// A fitted box with its readings and what the rays say of its panels.
-fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize) -> FoundBox {
+pub fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize) -> FoundBox {
     let present = long_enough(&solution.body, &present);
     let mut labels = label(sight, &solution.body, &present, FINE_M, stride);
     drop_unsure(sight, &solution.body, &mut labels);

@@ -40,7 +40,12 @@ const LEAST_MET: f64 = 120.0;
 const MET_TO_THROUGH: f64 = 1.5;
 
 fn is_flap(flap: &ScannedFlap) -> bool {
-    flap.met > LEAST_MET && flap.met > MET_TO_THROUGH * flap.through
+    is_there(flap.met, flap.through)
+}
+
+/// Whether so many pixels on a flap, and through it, make it one.
+pub fn is_there(met: f64, through: f64) -> bool {
+    met > LEAST_MET && met > MET_TO_THROUGH * through
 }
 
 /// The body with these flaps.

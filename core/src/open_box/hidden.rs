@@ -18,11 +18,11 @@ pub struct Unseen {
     pub seen_from: Option<Vec3>,
 }
 
-/// Of the parts of a box that were not seen, `unseen`; tuck flaps only where the box has them.
-pub fn unseen_parts(found: &FoundBox, sight: &Sight, unseen: &[Role]) -> Vec<Unseen> {
+/// Of the parts of a box that no view saw, `unseen`; tuck flaps only where the box has them. The last view is where the camera is.
+pub fn unseen_parts(found: &FoundBox, sights: &[Sight], unseen: &[Role]) -> Vec<Unseen> {
     let body = &found.solution.body;
     let there: Vec<Role> = roles(&found.present);
-    let surroundings = Surroundings::new(sight, body, &there);
+    let surroundings = Surroundings::new(sights, body, &there);
     let mut out = Vec::new();
     for &role in unseen {
         let known =
@@ -30,13 +30,13 @@ pub fn unseen_parts(found: &FoundBox, sight: &Sight, unseen: &[Role]) -> Vec<Uns
         let (state, poses) = match (known, role) {
             (Some(state), _) => (state, vec![(body.clone(), 1.0)]),
             (None, Role::Flap(k)) => {
-                let flap = unseen_flap(sight, body, k, usual_length_m(body, found.present.flaps));
+                let flap = unseen_flap(sights, body, k, usual_length_m(body, found.present.flaps));
                 (flap.state, flap.poses)
             }
             (None, _) => continue,
         };
         let is_hidden = state.hidden > state.seen && state.hidden > state.absent;
-        let seen_from = is_hidden.then(|| surroundings.seen_from(role, &poses)).flatten();
+        let seen_from = surroundings.as_ref().filter(|_| is_hidden).and_then(|s| s.seen_from(role, &poses));
         out.push(Unseen { role, state, seen_from });
     }
     out

@@ -31,6 +31,7 @@ mod sure;
 mod surfaces;
 mod unseen;
 mod upright;
+mod views;
 mod yaw;
 
 pub use answer::answer;
@@ -42,6 +43,7 @@ pub use kind::{open_boxes, Kinds};
 pub use recast::recast;
 pub use shape::{Shape, SHAPE_FEATURES};
 pub use sight::Sight;
+pub use views::{fuse, Fused, View};
 
 #[cfg(test)]
 mod kind_tests;

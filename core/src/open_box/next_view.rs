@@ -30,7 +30,9 @@ const HALVINGS: usize = 5;
 
 /// What stands between a panel and a place.
 pub struct Surroundings<'a> {
+    /// The last of `sights`: where the camera is.
     sight: &'a Sight<'a>,
+    sights: &'a [Sight<'a>],
     panels: Vec<(Role, Facet)>,
 }
 
@@ -42,10 +44,10 @@ struct Sample {
 }
 
 impl<'a> Surroundings<'a> {
-    /// Of a body with these panels, in the level frame.
-    pub fn new(sight: &'a Sight<'a>, body: &FittedBody, roles: &[Role]) -> Self {
+    /// Of a body with these panels, in the level frame; `None` without a view.
+    pub fn new(sights: &'a [Sight<'a>], body: &FittedBody, roles: &[Role]) -> Option<Self> {
         let facet = |&role: &Role| Some((role, Facet::new(corners(body, role))?));
-        Self { sight, panels: roles.iter().filter_map(facet).collect() }
+        Some(Self { sight: sights.last()?, sights, panels: roles.iter().filter_map(facet).collect() })
     }
 
     /// Unit vector, level frame, from the middle of a panel that may be posed in any of these ways (weighted) towards the place
@@ -80,7 +82,7 @@ impl<'a> Surroundings<'a> {
             let start = sample.point + sample.normal * (OWN_M * cos.signum());
             cos.abs() > LEAST_COS
                 && !self.panel_before(role, &start, &ray, range_m)
-                && !self.surface_before(&start, &ray)
+                && !self.sights.iter().any(|sight| surface_before(sight, &start, &ray))
         };
         samples.iter().filter(is_seen).map(|sample| sample.weight).sum()
     }
@@ -90,23 +92,24 @@ impl<'a> Surroundings<'a> {
         others.filter_map(|(_, facet)| facet.hit_m(start, ray, 0.0)).any(|hit_m| hit_m > OWN_M && hit_m < range_m)
     }
 
-    /// Whether a ray goes through a surface that the camera saw: from behind its readings to before them, or back, without a
-    /// jump in depth there.
-    fn surface_before(&self, start: &Vec3, ray: &Vec3) -> bool {
-        let mut last: Option<f64> = None;
-        for step in 0..((FARTHEST_M - FIRST_M) / STEP_M) as usize {
-            let at = start + ray * (FIRST_M + step as f64 * STEP_M);
-            let reading = self.sight.index(&at).and_then(|index| self.sight.reading(index));
-            let behind_m = reading.map(|p| (at - self.sight.eye).norm() - (p - self.sight.eye).norm());
-            if let (Some(before), Some(now)) = (last, behind_m) {
-                if before * now < 0.0 && before.abs().max(now.abs()) < 2.0 * STEP_M {
-                    return true;
-                }
+}
+
+/// Whether a ray goes through a surface that a view saw: from behind its readings to before them, or back, without a jump in
+/// depth there.
+fn surface_before(sight: &Sight, start: &Vec3, ray: &Vec3) -> bool {
+    let mut last: Option<f64> = None;
+    for step in 0..((FARTHEST_M - FIRST_M) / STEP_M) as usize {
+        let at = start + ray * (FIRST_M + step as f64 * STEP_M);
+        let reading = sight.index(&at).and_then(|index| sight.reading(index));
+        let behind_m = reading.map(|p| (at - sight.eye).norm() - (p - sight.eye).norm());
+        if let (Some(before), Some(now)) = (last, behind_m) {
+            if before * now < 0.0 && before.abs().max(now.abs()) < 2.0 * STEP_M {
+                return true;
             }
-            last = behind_m;
         }
-        false
+        last = behind_m;
     }
+    false
 }
 
 fn samples(sight: &Sight, role: Role, poses: &[(FittedBody, f64)]) -> Vec<Sample> {

@@ -25,7 +25,41 @@ pub fn refit(
     labels: &Labels,
     settings: &FitSettings,
 ) -> Result<Solution, NotFitted> {
+    refit_views(&[(sight, labels)], body, present, settings)
+}
+
+/// The same, fitted to the readings of several views in one level frame (eq. 99): each sees its own faces from its own place.
+///
+/// # Errors
+/// As of the fit.
+pub fn refit_views(
+    views: &[(&Sight, &Labels)],
+    body: &FittedBody,
+    present: &Present,
+    settings: &FitSettings,
+) -> Result<Solution, NotFitted> {
     let body = &settled(body);
+    let parts = views.iter().flat_map(|(sight, labels)| readings_of(sight, body, present, labels, settings));
+    let up = (body.input_from_object.rotation * Vec3::z()).z;
+    let stands = lowest_m(body).abs() < settings.stands_on_support_m;
+    let plane = Plane { normal: Vec3::z(), distance: 0.0 };
+    let problem = Problem {
+        parts: parts.collect(),
+        support: stands.then_some(Support { plane, is_level: up > LEVEL_COS }),
+        priors: priors(body),
+        settings: *settings,
+    };
+    solve(&problem, body)
+}
+
+/// What one view's readings tell of each panel.
+fn readings_of(
+    sight: &Sight,
+    body: &FittedBody,
+    present: &Present,
+    labels: &Labels,
+    settings: &FitSettings,
+) -> Vec<PartReadings> {
     let cloud =
         CloudView { points: &sight.points, width: sight.width, height: sight.height, viewpoint: Some(sight.eye) };
     let used: Vec<_> = labels
@@ -42,14 +76,5 @@ pub fn refit(
         let told = PartEnds::Told(ends(sight, body, present, *role));
         PartReadings::new(&PartSegment { role: *role, normal, center, ends: told, points }, body, &sensor, settings)
     });
-    let up = (body.input_from_object.rotation * Vec3::z()).z;
-    let stands = lowest_m(body).abs() < settings.stands_on_support_m;
-    let plane = Plane { normal: Vec3::z(), distance: 0.0 };
-    let problem = Problem {
-        parts: parts.collect(),
-        support: stands.then_some(Support { plane, is_level: up > LEVEL_COS }),
-        priors: priors(body),
-        settings: *settings,
-    };
-    solve(&problem, body)
+    parts.collect()
 }

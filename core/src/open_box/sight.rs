@@ -39,6 +39,25 @@ impl<'a> Sight<'a> {
         cloud.viewpoint.filter(|_| cloud.is_organized())?;
         let projection = Projection::of(cloud)?;
         let input_from_level = level(&projection, &scene.up, scene.support.as_ref().unwrap_or(&lowest(scene)?));
+        Self::from_projection(cloud, readings, &projection, input_from_level)
+    }
+
+    /// The same in a level frame that was found otherwise.
+    pub fn in_level(
+        cloud: &CloudView,
+        readings: &'a Readings<'a>,
+        input_from_level: Isometry3<f64>,
+    ) -> Option<Self> {
+        cloud.viewpoint.filter(|_| cloud.is_organized())?;
+        Self::from_projection(cloud, readings, &Projection::of(cloud)?, input_from_level)
+    }
+
+    fn from_projection(
+        cloud: &CloudView,
+        readings: &'a Readings<'a>,
+        projection: &Projection,
+        input_from_level: Isometry3<f64>,
+    ) -> Option<Self> {
         let level_from_input = input_from_level.inverse();
         let turn = level_from_input.rotation.to_rotation_matrix().cast::<f32>();
         let shift = level_from_input.translation.vector.cast::<f32>();
@@ -131,8 +150,20 @@ impl<'a> Sight<'a> {
 /// Standard deviations within which a reading is on a surface.
 const SIGMAS: f64 = 3.0;
 
+/// Of several views that are told in one level frame the readings are numbered on from view to view.
+pub fn reading_of(sights: &[Sight], index: usize) -> Option<Vec3> {
+    let mut index = index;
+    for sight in sights {
+        if index < sight.points.len() {
+            return sight.reading(index);
+        }
+        index -= sight.points.len();
+    }
+    None
+}
+
 /// The support as z = 0, x the way the camera looks, the camera above the origin.
-fn level(projection: &Projection, up: &Vec3, support: &Plane) -> Isometry3<f64> {
+pub fn level(projection: &Projection, up: &Vec3, support: &Plane) -> Isometry3<f64> {
     let forward = projection.optical_axis();
     let flat = forward - up * up.dot(&forward);
     // Straight down: any direction does.
@@ -147,7 +178,7 @@ fn level(projection: &Projection, up: &Vec3, support: &Plane) -> Isometry3<f64> 
 }
 
 /// Stands in for a support that nobody saw: level, through the lowest corner of any segment.
-fn lowest(scene: &Scene) -> Option<Plane> {
+pub fn lowest(scene: &Scene) -> Option<Plane> {
     let heights = scene.segments.hulls.iter().flatten().map(|corner| scene.up.dot(corner));
     Some(Plane { normal: scene.up, distance: heights.reduce(f64::min)? })
 }

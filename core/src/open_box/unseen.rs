@@ -1,6 +1,6 @@
 //! Flaps that nobody found: whether they hide, and where.
 
-use super::evidence::Sheet;
+use super::evidence::look_from_all;
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Role};
 use crate::free_space::{Looked, PartState};
@@ -18,8 +18,8 @@ const STEP_DEG: usize = 10;
 const LEAST_SHARE: f64 = 0.05;
 const MODEL_M: f64 = 0.004;
 
-/// Asks the rays at every angle (eq. 94). Readings that it would meet speak neither way: something else was found there.
-pub fn unseen_flap(sight: &Sight, body: &FittedBody, k: usize, length_m: f64) -> UnseenFlap {
+/// Asks the rays of all views at every angle (eq. 94). Readings that it would meet speak neither way: something else was found there.
+pub fn unseen_flap(sights: &[Sight], body: &FittedBody, k: usize, length_m: f64) -> UnseenFlap {
     let (mut poses, mut odds) = (Vec::new(), Vec::new());
     for degrees in (ANGLES_DEG[0]..=ANGLES_DEG[1]).step_by(STEP_DEG) {
         let mut posed = body.clone();
@@ -27,7 +27,7 @@ pub fn unseen_flap(sight: &Sight, body: &FittedBody, k: usize, length_m: f64) ->
         posed.numbers[flap + layout::FLAP_ANGLE] = (degrees as f64).to_radians();
         posed.numbers[flap + layout::FLAP_LENGTH] = length_m;
         posed.numbers[flap + layout::FLAP_CURL] = 0.0;
-        let looked = Sheet::new(&posed, Role::Flap(k), &sight.eye).look(sight, MODEL_M).looked();
+        let looked = look_from_all(sights, &posed, Role::Flap(k), MODEL_M).looked();
         let there = PartState::of(&Looked { met: 0.0, ..looked });
         odds.push((1.0 - there.absent) / there.absent);
         poses.push(posed);

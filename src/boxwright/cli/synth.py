@@ -25,6 +25,9 @@ def synth(
         int | None, typer.Option(min=1, max=3, help="Open boxes in each frame, but for none; default: drawn.")
     ] = None,
     start: Annotated[int, typer.Option(min=0, help="First frame of the sequence; to make a set longer.")] = 0,
+    views: Annotated[
+        int, typer.Option(min=1, help="Places that each scene is seen from; with more than one NAME.poses.toml lists them.")
+    ] = 1,
     clutter: Annotated[bool, typer.Option("--clutter/--no-clutter", help="Household things around and inside.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print a summary as JSON.")] = False,
 ) -> None:
@@ -36,6 +39,8 @@ def synth(
 
     boxwright synth set --count 60 --seed 7
 
+    boxwright synth looks --count 12 --seed 7 --boxes 1 --views 3
+
     boxwright synth pizzas --count 20 --category pizza --boxes 2 --no-clutter
     """
     import json
@@ -46,7 +51,7 @@ def synth(
 
     began = time.perf_counter()
     frames = write_frames(
-        directory, count, seed, tuple(category or CATEGORIES), boxes=boxes, clutter=clutter, start=start
+        directory, count, seed, tuple(category or CATEGORIES), boxes=boxes, clutter=clutter, start=start, views=views
     )
     truths = [frame.truth for frame in progress(frames, count, "synth")]
     seconds = time.perf_counter() - began

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from boxwright.io.quaternions import rotation_of
 from boxwright.types import Pose
 
 Matrix = NDArray[np.float64]
@@ -34,15 +35,7 @@ def apply(a_from_b: Matrix, points_b: Matrix) -> Matrix:
 
 def from_pose(pose: Pose) -> Matrix:
     """The transform of a pose: a_from_b for a pose of b in a; quaternion x, y, z, w."""
-    x, y, z, w = np.array(pose.orientation) / math.hypot(*pose.orientation)
-    rotation = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-    return rigid(rotation, pose.position)
+    return rigid(rotation_of(pose.orientation), pose.position)
 
 
 def turn_about_line(origin: Sequence[float], axis: Sequence[float], angle_rad: float) -> Matrix:

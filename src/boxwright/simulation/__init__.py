@@ -3,6 +3,18 @@
 from boxwright.simulation.conditions import Conditions
 from boxwright.simulation.drawing import CATEGORIES, NONE
 from boxwright.simulation.frames import Frame, make_frame
+from boxwright.simulation.looks import Look, make_looks
 from boxwright.simulation.sets import write_frame, write_frames, write_set
 
-__all__ = ["CATEGORIES", "NONE", "Conditions", "Frame", "make_frame", "write_frame", "write_frames", "write_set"]
+__all__ = [
+    "CATEGORIES",
+    "NONE",
+    "Conditions",
+    "Frame",
+    "Look",
+    "make_frame",
+    "make_looks",
+    "write_frame",
+    "write_frames",
+    "write_set",
+]

@@ -4,8 +4,9 @@ from boxwright.types.articulation import Joint, JointSigma, Parameter, Part, Par
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.known_size import KnownSize, MatchedSize
-from boxwright.types.model import Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
+from boxwright.types.model import FrameSource, Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
 from boxwright.types.plan import FlapOutcome, FlapStatus, Plan, PlanSegment, SegmentKind, SmallestMove
+from boxwright.types.posed import PosedCloud, PosedFile
 from boxwright.types.robot import Gripper, Opw, Place, RobotBox, RobotCapsule, RobotFile, RobotJoint, RobotLink
 from boxwright.types.segments import Segment, Segmentation
 from boxwright.types.simulation import FlapVerdict, Simulation
@@ -17,6 +18,7 @@ __all__ = [
     "FlapOutcome",
     "FlapStatus",
     "FlapVerdict",
+    "FrameSource",
     "Gripper",
     "Inference",
     "Intrinsics",
@@ -34,6 +36,8 @@ __all__ = [
     "Plan",
     "PlanSegment",
     "Pose",
+    "PosedCloud",
+    "PosedFile",
     "RobotBox",
     "RobotCapsule",
     "RobotFile",

@@ -6,6 +6,9 @@ import math
 import re
 from collections.abc import Iterable
 
+import numpy as np
+from numpy.typing import NDArray
+
 UNIT_TOLERANCE = 1e-6
 """How far the length of a unit vector or quaternion may be from 1: above float32 rounding, below any real mistake."""
 
@@ -46,6 +49,21 @@ def require_probability(name: str, value: float | None) -> None:
     """Refuse a number outside 0..1; None (not known) passes."""
     if value is not None and not 0.0 <= value <= 1.0:
         raise ValueError(f"{name} is {value}; a probability lies in 0..1")
+
+
+def require_rigid(name: str, matrix: NDArray[np.float64], tolerance: float = UNIT_TOLERANCE) -> None:
+    """Refuse what is no rigid motion (4, 4) within a tolerance."""
+    if matrix.shape != (4, 4):
+        raise ValueError(f"{name} has shape {matrix.shape}; it must be 4 rows of 4 numbers")
+    require_finite(name, matrix.ravel().tolist())
+    if np.abs(matrix[3] - (0.0, 0.0, 0.0, 1.0)).max() > tolerance:
+        raise ValueError(f"{name} has the last row {matrix[3].tolist()}; it must be 0, 0, 0, 1 (row by row)")
+    turn = matrix[:3, :3]
+    off = float(np.abs(turn @ turn.T - np.eye(3)).max())
+    if off > 2.0 * tolerance:
+        raise ValueError(f"{name} is no rigid motion: its axes are not unit and square to each other, off by {off:.2g}")
+    if np.linalg.det(turn) < 0.0:
+        raise ValueError(f"{name} is a mirror image (determinant -1); a rigid motion's determinant is 1")
 
 
 def require_name(name: str, value: str) -> None:

@@ -23,12 +23,28 @@ from boxwright.types.known_size import MatchedSize
 from boxwright.types.truth import Vector
 
 
+class FrameSource(msgspec.Struct, frozen=True, kw_only=True):
+    """One of several frames of a scene: its file's name, its points, and where its coordinates lie in the model's."""
+
+    file: str
+    points: int
+    input_from_frame: Pose
+
+    def __post_init__(self) -> None:
+        require_not_negative("points", [self.points])
+
+
 class Source(msgspec.Struct, frozen=True, kw_only=True):
-    """Where the model comes from: the file's name, its number of points (invalid ones counted), organized or not."""
+    """Where the model comes from: the file's name, its number of points (invalid ones counted), organized or not.
+
+    Of several frames `file` is the file of poses, `points` those of all, and `frames` lists them; the model's
+    coordinates are those of the first.
+    """
 
     file: str
     points: int
     organized: bool
+    frames: tuple[FrameSource, ...] = ()
 
     def __post_init__(self) -> None:
         require_not_negative("points", [self.points])

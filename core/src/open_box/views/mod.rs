@@ -1,0 +1,91 @@
+//! Several views of one scene, taken from known places: each finds its boxes, and one body is fitted to what all of them see
+//! (docs/maths.md, "Several views").
+
+mod flaps;
+mod gather;
+mod joint;
+mod level;
+mod matching;
+
+use nalgebra::Isometry3;
+
+use super::choose::choose;
+use super::find::find;
+use super::grow::FoundBox;
+use super::judgement::Judgement;
+use super::owners::Owners;
+use super::sight::Sight;
+use crate::cloud::CloudView;
+use crate::fit::{FitSettings, KnownSize};
+use crate::perception::readings::Readings;
+use crate::perception::Scene;
+
+use gather::Views;
+use level::common_level;
+use matching::{groups, Sighting};
+
+/// One frame of the scene, and where its coordinates lie in those of the first.
+pub struct View<'a> {
+    pub cloud: CloudView<'a>,
+    pub readings: Readings<'a>,
+    pub scene: &'a Scene,
+    pub first_from_view: Isometry3<f64>,
+}
+
+/// Boxes of several views, best first, in the level frame that all of `sights` share; readings are numbered on from view to view.
+pub struct Fused<'a> {
+    pub sights: Vec<Sight<'a>>,
+    pub found: Vec<FoundBox>,
+    /// What a user should know, one line each.
+    pub warnings: Vec<String>,
+}
+
+/// The boxes of a scene that several views show (eq. 98 to 101). A single view's are those that `find` finds.
+///
+/// # Errors
+/// The number of a view without an image or a viewpoint.
+pub fn fuse<'a>(
+    views: &'a [View<'a>],
+    sizes: &[KnownSize],
+    settings: &FitSettings,
+    judgement: Option<&Judgement>,
+) -> Result<Fused<'a>, usize> {
+    let own: Vec<Sight> = views
+        .iter()
+        .enumerate()
+        .map(|(number, view)| Sight::new(&view.cloud, &view.readings, view.scene).ok_or(number))
+        .collect::<Result<_, _>>()?;
+    let mut found: Vec<Vec<FoundBox>> = own
+        .iter()
+        .zip(views)
+        .map(|(sight, view)| find(sight, view.scene, sizes, settings, judgement))
+        .collect();
+    if views.len() == 1 {
+        return Ok(Fused { sights: own, found: found.remove(0), warnings: Vec::new() });
+    }
+    let first_from_level = common_level(views, &own, &found).ok_or(0_usize)?;
+    let sights: Vec<Sight> = views
+        .iter()
+        .enumerate()
+        .map(|(number, view)| {
+            let view_from_level = view.first_from_view.inverse() * first_from_level;
+            Sight::in_level(&view.cloud, &view.readings, view_from_level).ok_or(number)
+        })
+        .collect::<Result<_, _>>()?;
+    let mut sightings = Vec::new();
+    for (view, of_view) in found.into_iter().enumerate() {
+        let level_from_own = sights[view].input_from_level.inverse() * own[view].input_from_level;
+        sightings.extend(of_view.into_iter().map(|one| Sighting::new(view, &level_from_own, one)));
+    }
+    let owners = views.iter().map(|view| Owners::new(view.scene, view.cloud.points.len())).collect();
+    let all = Views { sights: &sights, owners, judgement };
+    let mut warnings = Vec::new();
+    let mut fitted = Vec::new();
+    for group in groups(sightings) {
+        fitted.push(joint::fit_group(&all, &group, sizes, settings, &mut warnings));
+    }
+    // All images as one row.
+    let points = sights.iter().map(|sight| sight.points.len()).sum();
+    let found = choose(fitted, points);
+    Ok(Fused { sights, found, warnings })
+}

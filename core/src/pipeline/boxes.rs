@@ -1,0 +1,87 @@
+//! Boxes that the depth image bears out, told by the most probable template.
+
+use std::time::Instant;
+
+use super::{Answer, ObjectFeatures};
+use crate::cloud::CloudView;
+use crate::fit::{FitSettings, KnownSize};
+use crate::inference::ObjectModel;
+use crate::model::Template;
+use crate::open_box::{self, open_boxes, FoundBox, Judgement, Kinds, Shape, Sight};
+use crate::perception::readings::Readings;
+use crate::perception::Scene;
+
+/// A box where there is none costs more than one that is missed: its odds must be better than even.
+const LEAST_PROBABILITY: f64 = 0.6;
+
+/// How fitted boxes become objects: templates that compete, what tells them apart, what is known of boxes.
+#[derive(Clone, Copy)]
+pub struct Telling<'a> {
+    pub templates: &'a [&'a Template],
+    pub kinds: &'a Kinds,
+    pub judgement: Option<&'a Judgement>,
+    pub sizes: &'a [KnownSize],
+    pub settings: FitSettings,
+}
+
+/// Open boxes judged by the depth image; `None` for a cloud without image or viewpoint, and where no template is an open box.
+pub fn whole_boxes(
+    cloud: &CloudView,
+    scene: &Scene,
+    readings: &Readings,
+    models: &[ObjectModel],
+    kinds: &Kinds,
+    judgement: Option<&Judgement>,
+    sizes: &[KnownSize],
+) -> Option<Answer> {
+    let start = Instant::now();
+    let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
+    open_boxes(&templates).next()?;
+    let telling = Telling { templates: &templates, kinds, judgement, sizes, settings: FitSettings::default() };
+    let sight = Sight::new(cloud, readings, scene)?;
+    let found = open_box::find(&sight, scene, sizes, &telling.settings, judgement);
+    let mut answer = tell_boxes(&found, &[sight], &telling);
+    answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
+    Some(answer)
+}
+
+/// The boxes that are sure enough, in the first view's input frame; points are numbered on from view to view.
+pub fn tell_boxes(found: &[FoundBox], sights: &[Sight], telling: &Telling) -> Answer {
+    let point_count = sights.iter().map(|sight| sight.points.len()).sum();
+    let mut answer = Answer {
+        objects: Vec::new(),
+        object_of_point: vec![-1; point_count],
+        part_of_point: vec![-1; point_count],
+        warnings: Vec::new(),
+        shapes: Vec::new(),
+        free_space: true,
+        stage_seconds: Vec::new(),
+        features: Vec::new(),
+    };
+    for one in found {
+        tell_box(&mut answer, one, sights, telling);
+    }
+    answer
+}
+
+fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Telling) {
+    let Telling { templates, kinds, judgement, sizes, settings } = telling;
+    let shape = Shape::of_found(one);
+    let Some((number, probability)) = kinds.choose(&shape, templates) else { return };
+    let told = open_box::answer(one, templates[number], probability, sights, sizes, settings, *judgement);
+    let Some((object, parts)) = told else { return };
+    if object.probability.is_some_and(|p| p < LEAST_PROBABILITY) {
+        return;
+    }
+    for (part, points) in parts {
+        for point in points {
+            answer.object_of_point[point as usize] = answer.objects.len() as i16;
+            answer.part_of_point[point as usize] = part as i16;
+        }
+    }
+    let by_name = |features: &open_box::Features| features.iter().copied().collect();
+    let parts = one.part_features.iter().map(|(role, features)| (role.name(), by_name(features)));
+    answer.features.push(ObjectFeatures { of_box: by_name(&one.features), parts: parts.collect() });
+    answer.objects.push(object);
+    answer.shapes.push(Some(shape));
+}
