@@ -254,8 +254,7 @@ fn infer_frames(
     let views: Vec<InputView> = frames.iter().map(input_view).collect::<PyResult<_>>()?;
     let (models, sizes) = (model_list(&models), known_sizes(&sizes)?);
     let judgement = judgement.map(Judgement::from_json).transpose().map_err(to_python)?;
-    let inferred =
-        py.detach(|| infer_views(&views, &settings, &models, &kinds.kinds, judgement.as_ref(), &sizes));
+    let inferred = py.detach(|| infer_views(&views, &settings, &models, &kinds.kinds, judgement.as_ref(), &sizes));
     let (scenes, answer) = inferred.map_err(to_python)?;
     let counts = views.iter().map(|view| view.cloud.points.len());
     let seen = scenes.into_iter().zip(counts).map(|(scene, point_count)| Perception { scene, point_count });

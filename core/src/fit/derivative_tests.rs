@@ -125,11 +125,12 @@ fn the_gradient_is_that_of_the_whole_objective() {
             };
             PartReadings { role, face: 1.0, faces, face_information: 0.3, ends: (0..4).map(end).collect() }
         });
-        let parts = parts.collect();
+        let (parts, others) = (parts.collect(), Vec::new());
         let normal = (body.input_from_object * (Vec3::z() + draw.vector(0.05))).normalize();
         let plane = Plane { normal, distance: draw.between(-0.1, 0.1) };
         let support = Some(Support { plane, is_level: number % 2 == 0 });
-        let problem = Problem { parts, support, priors: priors(&draw.body()), settings: FitSettings::default() };
+        let (priors, settings) = (priors(&draw.body()), FitSettings::default());
+        let problem = Problem { parts, others, support, priors, settings };
         let told = problem.linearize(&body, 5.0).gradient;
         for place in 0..PARAMETER_COUNT {
             let at = |step: f64| problem.linearize(&body.moved(&one(place, step)), 5.0).cost;

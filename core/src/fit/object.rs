@@ -102,6 +102,7 @@ fn fit(
     let stands = |plane: &Plane| plane.height_of(&bottom).abs() < settings.stands_on_support_m;
     let problem = Problem {
         parts: segments.iter().map(|segment| PartReadings::new(segment, first, sensor, settings)).collect(),
+        others: Vec::new(),
         support: scene.support.filter(stands).map(|plane| Support { plane, is_level: true }),
         priors: priors(first),
         settings: *settings,

@@ -1,7 +1,8 @@
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Isometry3};
 
 use super::body::{FittedBody, Parameters};
 use super::layout::{place_of_slot, LENGTH, PARAMETER_COUNT, SHIFT, SLOT_COUNT, TURN, WIDTH};
+use super::other_view::OtherView;
 use super::panel::Panel;
 use super::priors::Prior;
 use super::readings::PartReadings;
@@ -20,6 +21,8 @@ pub struct Support {
 #[derive(Debug, Clone)]
 pub struct Problem {
     pub parts: Vec<PartReadings>,
+    /// Further views of the same body, whose places are known only so well.
+    pub others: Vec<OtherView>,
     pub support: Option<Support>,
     pub priors: Vec<Prior>,
     pub settings: FitSettings,
@@ -34,6 +37,13 @@ pub struct Linearized {
     pub curvature: DMatrix<f64>,
 }
 
+impl Linearized {
+    pub fn zeros() -> Self {
+        let curvature = DMatrix::zeros(PARAMETER_COUNT, PARAMETER_COUNT);
+        Self { cost: 0.0, gradient: Parameters::zeros(), curvature }
+    }
+}
+
 /// Half of Cauchy's loss of a residual in standard deviations, and the weight it leaves the residual.
 fn cauchy(residual: f64, cut: f64) -> (f64, f64) {
     let ratio = 1.0 + (residual / cut).powi(2);
@@ -46,13 +56,12 @@ const FIRM: f64 = 100.0;
 impl Problem {
     /// At `body`, residuals beyond `cut` standard deviations losing their say.
     pub fn linearize(&self, body: &FittedBody, cut: f64) -> Linearized {
-        let mut sums = Linearized {
-            cost: 0.0,
-            gradient: Parameters::zeros(),
-            curvature: DMatrix::zeros(PARAMETER_COUNT, PARAMETER_COUNT),
-        };
+        let mut sums = Linearized::zeros();
         for part in &self.parts {
-            add_part(&mut sums, part, body, cut);
+            add_part(&mut sums, part, body, None, cut);
+        }
+        for view in &self.others {
+            view.add_to(&mut sums, body, cut);
         }
         self.add_support(&mut sums, body, cut);
         for prior in &self.priors {
@@ -115,21 +124,56 @@ fn lean_rows(normal: &Vec3) -> [Row; 2] {
     [Row { value: normal.x, slots: slots[0] }, Row { value: normal.y, slots: slots[1] }]
 }
 
-fn add_part(sums: &mut Linearized, part: &PartReadings, body: &FittedBody, cut: f64) {
-    let panel = Panel::new(body, part.role);
+/// Adds the readings of one part, moved in the object's frame by `motion` where there is one.
+pub fn add_part(
+    sums: &mut Linearized,
+    part: &PartReadings,
+    body: &FittedBody,
+    motion: Option<&Isometry3<f64>>,
+    cut: f64,
+) {
     let mut block = Block::default();
+    rows_of(part, body, motion, |row, sigma, information| block.add(row, sigma, information, cut));
+    block.scatter(sums, part.role.side());
+}
+
+/// Each row of a part with the weight that the robust loss leaves it.
+pub fn for_each_row(
+    part: &PartReadings,
+    body: &FittedBody,
+    motion: Option<&Isometry3<f64>>,
+    cut: f64,
+    mut with: impl FnMut(&Row, f64),
+) {
+    rows_of(part, body, motion, |row, sigma, information| {
+        let (_, left) = cauchy(row.value / sigma, cut);
+        with(row, information * left / (sigma * sigma));
+    });
+}
+
+/// Each row of a part with its standard deviation and what it counts.
+fn rows_of(
+    part: &PartReadings,
+    body: &FittedBody,
+    motion: Option<&Isometry3<f64>>,
+    mut with: impl FnMut(&Row, f64, f64),
+) {
+    let panel = Panel::new(body, part.role);
+    let place = |point: &Vec3| {
+        let q = body.to_object(point);
+        motion.map_or(q, |motion| motion.transform_point(&q.into()).coords)
+    };
     for reading in &part.faces {
-        let row = panel.face(&body.to_object(&reading.point), part.face);
-        block.add(&row, reading.sigma_m, part.face_information, cut);
+        let row = panel.face(&place(&reading.point), part.face);
+        with(&row, reading.sigma_m, part.face_information);
     }
     for reading in &part.ends {
-        let mut row = panel.beyond(&body.to_object(&reading.point), reading.end, part.face);
+        let mut row = panel.beyond(&place(&reading.point), reading.end, part.face);
         row.value += reading.reach_m;
         if row.value > 0.0 || !reading.is_least {
-            block.add(&row, reading.sigma_m, reading.information, cut);
+            with(&row, reading.sigma_m, reading.information);
         }
     }
-    block.scatter(sums, part.role.side());
 }
 
 /// The sums of one part, by slots.

@@ -99,7 +99,13 @@ fn problem(body: &FittedBody, parts: Vec<PartReadings>, start: &FittedBody) -> P
     let normal = body.input_from_object * Vec3::z();
     let support = Plane { normal, distance: normal.dot(&body.input_from_object.translation.vector) };
     let support = Support { plane: support, is_level: true };
-    Problem { parts, support: Some(support), priors: priors(start), settings: FitSettings::default() }
+    Problem {
+        parts,
+        others: Vec::new(),
+        support: Some(support),
+        priors: priors(start),
+        settings: FitSettings::default(),
+    }
 }
 
 /// Of all hinges: the largest turn of the axis (rad), distance (m) and angle (rad).

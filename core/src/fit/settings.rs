@@ -24,6 +24,9 @@ pub struct FitSettings {
     pub support_sigma_m: f64,
     pub support_sigma_rad: f64,
     pub stands_on_support_m: f64,
+    /// How well a further view's place among the others is known: an arm with a calibrated camera.
+    pub place_sigma_m: f64,
+    pub place_sigma_rad: f64,
     /// Residuals beyond this many standard deviations lose their say (Cauchy), at first and at last.
     pub first_cut: f64,
     pub last_cut: f64,
@@ -52,6 +55,8 @@ impl Default for FitSettings {
             support_sigma_m: 0.003,
             support_sigma_rad: 0.01,
             stands_on_support_m: 0.05,
+            place_sigma_m: 0.002,
+            place_sigma_rad: 0.0035,
             first_cut: 12.0,
             last_cut: 3.0,
             max_steps: 60,

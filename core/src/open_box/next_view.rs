@@ -91,7 +91,6 @@ impl<'a> Surroundings<'a> {
         let others = self.panels.iter().filter(|(other, _)| *other != role);
         others.filter_map(|(_, facet)| facet.hit_m(start, ray, 0.0)).any(|hit_m| hit_m > OWN_M && hit_m < range_m)
     }
-
 }
 
 /// Whether a ray goes through a surface that a view saw: from behind its readings to before them, or back, without a jump in

@@ -1,3 +1,5 @@
+use nalgebra::Isometry3;
+
 use super::ends::ends;
 use super::evidence::Sheet;
 use super::settle::{lowest_m, settled, LEVEL_COS};
@@ -5,8 +7,8 @@ use super::sight::Sight;
 use super::surfaces::{Labels, Present};
 use crate::cloud::CloudView;
 use crate::fit::{
-    priors, solve, FitSettings, FittedBody, NotFitted, PartEnds, PartReadings, PartSegment, Problem, Sensor, Solution,
-    Support,
+    priors, solve, FitSettings, FittedBody, NotFitted, OtherView, PartEnds, PartReadings, PartSegment, PlaceSigma,
+    Problem, Sensor, Solution, Support,
 };
 use crate::geometry::{Plane, Vec3};
 
@@ -25,10 +27,11 @@ pub fn refit(
     labels: &Labels,
     settings: &FitSettings,
 ) -> Result<Solution, NotFitted> {
-    refit_views(&[(sight, labels)], body, present, settings)
+    refit_views(&[(sight, labels)], body, present, settings).map(|(solution, _)| solution)
 }
 
-/// The same, fitted to the readings of several views in one level frame (eq. 99): each sees its own faces from its own place.
+/// The same, fitted to the readings of several views in one level frame, each of which sees its own faces (eq. 99). With it the
+/// motions of further views' readings in that frame that suit the body best: their places are known only so well.
 ///
 /// # Errors
 /// As of the fit.
@@ -37,19 +40,37 @@ pub fn refit_views(
     body: &FittedBody,
     present: &Present,
     settings: &FitSettings,
-) -> Result<Solution, NotFitted> {
+) -> Result<(Solution, Vec<Isometry3<f64>>), NotFitted> {
     let body = &settled(body);
-    let parts = views.iter().flat_map(|(sight, labels)| readings_of(sight, body, present, labels, settings));
+    let mut parts = views.iter().map(|(sight, labels)| readings_of(sight, body, present, labels, settings));
+    let first = parts.next().unwrap_or_default();
+    let others = views
+        .iter()
+        .skip(1)
+        .zip(parts)
+        .map(|((sight, _), parts)| OtherView { parts, sigma: sigma(sight, body, settings) });
     let up = (body.input_from_object.rotation * Vec3::z()).z;
     let stands = lowest_m(body).abs() < settings.stands_on_support_m;
     let plane = Plane { normal: Vec3::z(), distance: 0.0 };
     let problem = Problem {
-        parts: parts.collect(),
+        parts: first,
+        others: others.collect(),
         support: stands.then_some(Support { plane, is_level: up > LEVEL_COS }),
         priors: priors(body),
         settings: *settings,
     };
-    solve(&problem, body)
+    let solution = solve(&problem, body)?;
+    let at = solution.body.input_from_object;
+    let motion = |view: &OtherView| at * view.motion(&solution.body, settings.last_cut) * at.inverse();
+    let motions = problem.others.iter().map(motion).collect();
+    Ok((solution, motions))
+}
+
+/// Of a view's place where the body is: far off a turn of the camera is a shift.
+fn sigma(sight: &Sight, body: &FittedBody, settings: &FitSettings) -> PlaceSigma {
+    let range_m = (body.input_from_object.translation.vector - sight.eye).norm();
+    let turn_rad = settings.place_sigma_rad;
+    PlaceSigma { turn_rad, shift_m: settings.place_sigma_m.hypot(range_m * turn_rad) }
 }
 
 /// What one view's readings tell of each panel.

@@ -43,11 +43,7 @@ impl<'a> Sight<'a> {
     }
 
     /// The same in a level frame that was found otherwise.
-    pub fn in_level(
-        cloud: &CloudView,
-        readings: &'a Readings<'a>,
-        input_from_level: Isometry3<f64>,
-    ) -> Option<Self> {
+    pub fn in_level(cloud: &CloudView, readings: &'a Readings<'a>, input_from_level: Isometry3<f64>) -> Option<Self> {
         cloud.viewpoint.filter(|_| cloud.is_organized())?;
         Self::from_projection(cloud, readings, &Projection::of(cloud)?, input_from_level)
     }

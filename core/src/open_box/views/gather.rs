@@ -26,10 +26,10 @@ impl Views<'_> {
 
     /// A fitted box with the readings of all views, numbered on from view to view, and what their rays say together (eq. 100).
     pub fn gather(&self, solution: &Solution, present: Present, size: Option<SizeMatch>) -> FoundBox {
-        let seen: Vec<FoundBox> =
-            self.sights.iter().map(|sight| weigh(sight, solution.clone(), present, 1)).collect();
+        let seen: Vec<FoundBox> = self.sights.iter().map(|sight| weigh(sight, solution.clone(), present, 1)).collect();
         let present = seen[0].present;
-        let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(|role| (role, together(&seen, role))).collect();
+        let evidence: Vec<(Role, Evidence)> =
+            roles(&present).into_iter().map(|role| (role, together(&seen, role))).collect();
         let mut out = FoundBox {
             labels: self.labels(&seen, &present),
             features: self.box_features(&seen),
@@ -77,8 +77,7 @@ impl Views<'_> {
             let own = seen[best].evidence.iter().find(|(r, _)| r == role).map(|(_, evidence)| *evidence)?;
             let judged = Evidence { through: own.met * all.through / all.met.max(1.0), ..own };
             let (sight, owners) = (&self.sights[best], &self.owners[best]);
-            (!points.is_empty())
-                .then(|| (*role, features::of_part(sight, owners, &seen[best], *role, points, &judged)))
+            (!points.is_empty()).then(|| (*role, features::of_part(sight, owners, &seen[best], *role, points, &judged)))
         };
         evidence.iter().filter_map(of).collect()
     }

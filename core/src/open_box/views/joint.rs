@@ -1,5 +1,7 @@
 //! One body for what several views see of a box.
 
+use nalgebra::Isometry3;
+
 use super::super::grow::{sound, COARSE_M, FINE_M, ONCE_FITTED_M};
 use super::super::refit::refit_views;
 use super::super::sight::Sight;
@@ -25,7 +27,7 @@ pub fn fit_group(
     settings: &FitSettings,
     warnings: &mut Vec<String>,
 ) -> FoundBox {
-    let coarse = FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings };
+    let coarse = coarse(settings);
     let mut best: Option<(f64, Solution, Present)> = None;
     for start in group {
         let Some((solution, present)) = grow_jointly(views.sights, start, group, &coarse) else { continue };
@@ -54,9 +56,9 @@ fn grow_jointly(
 ) -> Option<(Solution, Present)> {
     let others = numbered_as(group, start.body());
     let (body, present) = best_flaps(sights, start.body(), &start.found.present, &others, COARSE_M);
-    let solution = refit_labelled(sights, &body, &present, COARSE_M, COARSE_STRIDE, settings)?;
+    let (solution, _) = refit_labelled(sights, &body, &present, COARSE_M, COARSE_STRIDE, settings)?;
     let (body, present) = best_flaps(sights, &solution.body, &present, &others, ONCE_FITTED_M);
-    let solution = refit_labelled(sights, &body, &present, FINE_M, COARSE_STRIDE, settings)?;
+    let (solution, _) = refit_labelled(sights, &body, &present, FINE_M, COARSE_STRIDE, settings)?;
     Some((solution, present))
 }
 
@@ -73,20 +75,35 @@ fn finish(
     let (body, present) = (solution.body.turned(turn), present.turned(turn));
     let others = numbered_as(group, &body);
     let (body, mut present) = best_tucks(sights, &body, &present, &others, FINE_M);
-    let mut solution = refit_labelled(sights, &body, &present, FINE_M, 1, settings)?;
+    let (mut solution, _) = refit_labelled(sights, &body, &present, FINE_M, 1, settings)?;
     for _ in 0..LOOKS {
         let (body, has) = best_flaps(sights, &solution.body, &present, &others, FINE_M);
         if body == solution.body && has == present {
             break;
         }
         let (body, has) = best_tucks(sights, &body, &has, &others, FINE_M);
-        let Some(again) = refit_labelled(sights, &body, &has, FINE_M, 1, settings) else { break };
+        let Some((again, _)) = refit_labelled(sights, &body, &has, FINE_M, 1, settings) else { break };
         if views.score(&again, has, 1) <= views.score(&solution, present, 1) {
             break;
         }
         (solution, present) = (again, has);
     }
     Some((solution, present))
+}
+
+/// Motions of the further views' readings, level frame, that suit a box best which several of them saw: their places as it tells them.
+pub fn motions(sights: &[Sight], group: &[Sighting], settings: &FitSettings) -> Option<Vec<Isometry3<f64>>> {
+    let settings = coarse(settings);
+    let start = &group[0];
+    let others = numbered_as(group, start.body());
+    let (body, present) = best_flaps(sights, start.body(), &start.found.present, &others, COARSE_M);
+    let (_, motions) = refit_labelled(sights, &body, &present, COARSE_M, COARSE_STRIDE, &settings)?;
+    Some(motions)
+}
+
+/// While boxes and places are not yet known well.
+fn coarse(settings: &FitSettings) -> FitSettings {
+    FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }
 }
 
 fn numbered_as(group: &[Sighting], body: &FittedBody) -> Vec<(FittedBody, Present)> {
@@ -101,7 +118,7 @@ fn refit_labelled(
     model_m: f64,
     stride: usize,
     settings: &FitSettings,
-) -> Option<Solution> {
+) -> Option<(Solution, Vec<Isometry3<f64>>)> {
     let of_view = |sight: &Sight| {
         let mut labels = label(sight, body, present, model_m, stride);
         drop_unsure(sight, body, &mut labels);
@@ -109,7 +126,7 @@ fn refit_labelled(
     };
     let labels: Vec<Labels> = sights.iter().map(of_view).collect();
     let views: Vec<_> = sights.iter().zip(&labels).collect();
-    let solution = refit_views(&views, body, present, settings).ok()?;
+    let (solution, motions) = refit_views(&views, body, present, settings).ok()?;
     sound(&solution.body)?;
-    Some(solution)
+    Some((solution, motions))
 }

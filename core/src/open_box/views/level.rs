@@ -22,7 +22,8 @@ pub fn common_level(views: &[View], own: &[Sight], found: &[Vec<FoundBox>]) -> O
     };
     let places: Vec<Vec3> = views.iter().enumerate().flat_map(place).collect();
     let middle = places.iter().sum::<Vec3>() / places.len().max(1) as f64;
-    let supports: Vec<Plane> = views.iter().filter_map(|v| Some(moved(&v.scene.support?, &v.first_from_view))).collect();
+    let supports: Vec<Plane> =
+        views.iter().filter_map(|v| Some(moved(&v.scene.support?, &v.first_from_view))).collect();
     let agree = |a: &Plane, b: &Plane| {
         let tilt = a.normal.cross(&b.normal).norm();
         tilt < SAME_TILT_RAD && (a.height_of(&middle) - b.height_of(&middle)).abs() < SAME_HEIGHT_M

@@ -6,6 +6,7 @@ mod gather;
 mod joint;
 mod level;
 mod matching;
+mod places;
 
 use nalgebra::Isometry3;
 
@@ -55,11 +56,8 @@ pub fn fuse<'a>(
         .enumerate()
         .map(|(number, view)| Sight::new(&view.cloud, &view.readings, view.scene).ok_or(number))
         .collect::<Result<_, _>>()?;
-    let mut found: Vec<Vec<FoundBox>> = own
-        .iter()
-        .zip(views)
-        .map(|(sight, view)| find(sight, view.scene, sizes, settings, judgement))
-        .collect();
+    let mut found: Vec<Vec<FoundBox>> =
+        own.iter().zip(views).map(|(sight, view)| find(sight, view.scene, sizes, settings, judgement)).collect();
     if views.len() == 1 {
         return Ok(Fused { sights: own, found: found.remove(0), warnings: Vec::new() });
     }
@@ -77,12 +75,13 @@ pub fn fuse<'a>(
         let level_from_own = sights[view].input_from_level.inverse() * own[view].input_from_level;
         sightings.extend(of_view.into_iter().map(|one| Sighting::new(view, &level_from_own, one)));
     }
+    let groups = groups(sightings);
+    let (sights, mut warnings) = places::bettered(views, sights, &groups, settings).ok_or(0_usize)?;
     let owners = views.iter().map(|view| Owners::new(view.scene, view.cloud.points.len())).collect();
     let all = Views { sights: &sights, owners, judgement };
-    let mut warnings = Vec::new();
     let mut fitted = Vec::new();
-    for group in groups(sightings) {
-        fitted.push(joint::fit_group(&all, &group, sizes, settings, &mut warnings));
+    for group in &groups {
+        fitted.push(joint::fit_group(&all, group, sizes, settings, &mut warnings));
     }
     // All images as one row.
     let points = sights.iter().map(|sight| sight.points.len()).sum();

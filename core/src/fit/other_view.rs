@@ -1,0 +1,88 @@
+//! Readings of a view whose place is known only so well: the place that suits them best is found with the body, and left out of
+//! what is told (eq. 99).
+
+use nalgebra::{DMatrix, Isometry3, Matrix6, SVector, Translation3, UnitQuaternion, Vector6};
+
+use super::body::FittedBody;
+use super::layout::{PARAMETER_COUNT, POSE_COUNT};
+use super::problem::{add_part, for_each_row, Linearized};
+use super::readings::PartReadings;
+use crate::geometry::Vec3;
+
+/// How well a view's place is known, at the object: standard deviations about each and along each axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlaceSigma {
+    pub turn_rad: f64,
+    pub shift_m: f64,
+}
+
+/// Readings of one further view, told in the frame of the first by its place as it was given.
+#[derive(Debug, Clone)]
+pub struct OtherView {
+    pub parts: Vec<PartReadings>,
+    pub sigma: PlaceSigma,
+}
+
+/// Steps to the place that suits the readings best: motions are small, two would nearly do.
+const STEPS: usize = 3;
+
+impl OtherView {
+    /// The small motion of its readings, in the object's frame, that suits this body best.
+    pub fn motion(&self, body: &FittedBody, cut: f64) -> Isometry3<f64> {
+        let mut motion = Isometry3::identity();
+        for _ in 0..STEPS {
+            let (mut gradient, mut curvature) = (self.prior_gradient(&motion), self.prior_curvature());
+            for part in &self.parts {
+                for_each_row(part, body, Some(&motion), cut, |row, weight| {
+                    let by = SVector::<f64, POSE_COUNT>::from_column_slice(&row.slots[..POSE_COUNT]);
+                    // A motion of the readings is one of the body the other way.
+                    gradient -= by * (weight * row.value);
+                    curvature += by * by.transpose() * weight;
+                });
+            }
+            let Some(factor) = curvature.cholesky() else { break };
+            let step = -factor.solve(&gradient);
+            motion = step_of(&step) * motion;
+        }
+        motion
+    }
+
+    /// Adds what its readings say, its place being whatever suits them (eq. 99).
+    pub fn add_to(&self, sums: &mut Linearized, body: &FittedBody, cut: f64) {
+        let motion = self.motion(body, cut);
+        let mut own = Linearized::zeros();
+        for part in &self.parts {
+            add_part(&mut own, part, body, Some(&motion), cut);
+        }
+        let offset = offset_of(&motion);
+        let cost = 0.5 * offset.dot(&self.prior_gradient(&motion));
+        let full = |i: usize, j: usize| own.curvature[(i.max(j), i.min(j))];
+        let of_place = Matrix6::from_fn(full) + self.prior_curvature();
+        let coupled = DMatrix::from_fn(PARAMETER_COUNT, POSE_COUNT, full);
+        let Some(factor) = of_place.cholesky() else { return };
+        let left: Vector6<f64> = self.prior_gradient(&motion) - own.gradient.fixed_rows::<POSE_COUNT>(0);
+        let solved = factor.solve(&coupled.transpose());
+        sums.cost += own.cost + cost;
+        sums.gradient += own.gradient + SVector::from_column_slice((&coupled * factor.solve(&left)).as_slice());
+        sums.curvature += own.curvature - coupled * solved;
+    }
+
+    fn prior_curvature(&self) -> Matrix6<f64> {
+        let (turn, shift) = (self.sigma.turn_rad.powi(-2), self.sigma.shift_m.powi(-2));
+        Matrix6::from_diagonal(&Vector6::new(turn, turn, turn, shift, shift, shift))
+    }
+
+    fn prior_gradient(&self, motion: &Isometry3<f64>) -> Vector6<f64> {
+        self.prior_curvature() * offset_of(motion)
+    }
+}
+
+fn step_of(step: &Vector6<f64>) -> Isometry3<f64> {
+    let turn = UnitQuaternion::from_scaled_axis(Vec3::new(step[0], step[1], step[2]));
+    Isometry3::from_parts(Translation3::new(step[3], step[4], step[5]), turn)
+}
+
+fn offset_of(motion: &Isometry3<f64>) -> Vector6<f64> {
+    let (turn, shift) = (motion.rotation.scaled_axis(), motion.translation.vector);
+    Vector6::new(turn.x, turn.y, turn.z, shift.x, shift.y, shift.z)
+}
