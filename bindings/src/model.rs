@@ -166,6 +166,12 @@ impl Answer {
         self.answer.warnings.clone()
     }
 
+    /// Which candidates are no objects, and why.
+    #[getter]
+    fn refused(&self) -> Vec<String> {
+        self.answer.refused.clone()
+    }
+
     #[getter]
     fn stage_seconds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let seconds = PyDict::new(py);

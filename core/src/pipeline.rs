@@ -53,6 +53,8 @@ pub struct Answer {
     pub free_space: bool,
     /// Seconds of each stage, in order.
     pub stage_seconds: Vec<(&'static str, f64)>,
+    /// Of whole boxes: which candidates are no objects, and why, one line each.
+    pub refused: Vec<String>,
     /// What each object, and each of its parts, was judged by; of boxes judged by the depth image alone.
     pub features: Vec<ObjectFeatures>,
 }
@@ -178,6 +180,7 @@ pub fn describe(
         shapes: Vec::new(),
         free_space: false,
         stage_seconds: Vec::new(),
+        refused: Vec::new(),
         features: Vec::new(),
     };
     let mut fit_seconds = 0.0;

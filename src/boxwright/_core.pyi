@@ -210,6 +210,10 @@ class Answer:
     @property
     def warnings(self) -> list[str]: ...
     @property
+    def refused(self) -> list[str]:
+        """Which candidates are no objects, and why, one line each."""
+
+    @property
     def stage_seconds(self) -> dict[str, float]: ...
 
 SHAPE_FEATURES: list[str]

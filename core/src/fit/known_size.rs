@@ -108,7 +108,7 @@ pub fn condition(solution: &Solution, to: &SizeMatch, scale: f64) -> Option<Solu
     let left = covariance - &gain * by * covariance;
     // Rounding must not leave it lopsided.
     let covariance = (&left + left.transpose()) * 0.5;
-    Some(Solution { body: solution.body.moved(&step), covariance })
+    Some(Solution { body: solution.body.moved(&step), covariance, motions: solution.motions.clone() })
 }
 
 fn nearest(outer_m: [f64; 3], covariance: &Matrix3<f64>, sizes: &[KnownSize]) -> Option<SizeMatch> {

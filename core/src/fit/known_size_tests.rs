@@ -30,6 +30,7 @@ fn solution(outer_mm: [f64; 3]) -> Solution {
     Solution {
         body: FittedBody { input_from_object: Isometry3::identity(), numbers },
         covariance: &root * root.transpose() + DMatrix::identity(PARAMETER_COUNT, PARAMETER_COUNT) * 1e-7,
+        motions: Vec::new(),
     }
 }
 

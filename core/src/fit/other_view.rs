@@ -23,13 +23,14 @@ pub struct OtherView {
     pub sigma: PlaceSigma,
 }
 
-/// Steps to the place that suits the readings best: motions are small, two would nearly do.
-const STEPS: usize = 3;
+/// Steps to the place that suits the readings best, at most, and the gain in the objective below which one is the last.
+const STEPS: usize = 20;
+const LEAST_GAIN: f64 = 1e-8;
 
 impl OtherView {
-    /// The small motion of its readings, in the object's frame, that suits this body best.
-    pub fn motion(&self, body: &FittedBody, cut: f64) -> Isometry3<f64> {
-        let mut motion = Isometry3::identity();
+    /// The small motion of its readings, in the object's frame, that suits this body best; found from `start`.
+    pub fn motion(&self, body: &FittedBody, start: &Isometry3<f64>, cut: f64) -> Isometry3<f64> {
+        let mut motion = *start;
         for _ in 0..STEPS {
             let (mut gradient, mut curvature) = (self.prior_gradient(&motion), self.prior_curvature());
             for part in &self.parts {
@@ -43,24 +44,26 @@ impl OtherView {
             let Some(factor) = curvature.cholesky() else { break };
             let step = -factor.solve(&gradient);
             motion = step_of(&step) * motion;
+            if -gradient.dot(&step) < 2.0 * LEAST_GAIN {
+                break;
+            }
         }
         motion
     }
 
-    /// Adds what its readings say, its place being whatever suits them (eq. 99).
-    pub fn add_to(&self, sums: &mut Linearized, body: &FittedBody, cut: f64) {
-        let motion = self.motion(body, cut);
+    /// Adds what its readings say, their motion being this, which suits them (eq. 99).
+    pub fn add_to(&self, sums: &mut Linearized, body: &FittedBody, motion: &Isometry3<f64>, cut: f64) {
         let mut own = Linearized::zeros();
         for part in &self.parts {
-            add_part(&mut own, part, body, Some(&motion), cut);
+            add_part(&mut own, part, body, Some(motion), cut);
         }
-        let offset = offset_of(&motion);
-        let cost = 0.5 * offset.dot(&self.prior_gradient(&motion));
+        let offset = offset_of(motion);
+        let cost = 0.5 * offset.dot(&self.prior_gradient(motion));
         let full = |i: usize, j: usize| own.curvature[(i.max(j), i.min(j))];
         let of_place = Matrix6::from_fn(full) + self.prior_curvature();
         let coupled = DMatrix::from_fn(PARAMETER_COUNT, POSE_COUNT, full);
         let Some(factor) = of_place.cholesky() else { return };
-        let left: Vector6<f64> = self.prior_gradient(&motion) - own.gradient.fixed_rows::<POSE_COUNT>(0);
+        let left: Vector6<f64> = self.prior_gradient(motion) - own.gradient.fixed_rows::<POSE_COUNT>(0);
         let solved = factor.solve(&coupled.transpose());
         sums.cost += own.cost + cost;
         sums.gradient += own.gradient + SVector::from_column_slice((&coupled * factor.solve(&left)).as_slice());

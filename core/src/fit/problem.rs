@@ -35,12 +35,14 @@ pub struct Linearized {
     pub gradient: Parameters,
     /// Lower triangle.
     pub curvature: DMatrix<f64>,
+    /// Of the other views' readings, object's frame: those that suit the body best.
+    pub motions: Vec<Isometry3<f64>>,
 }
 
 impl Linearized {
     pub fn zeros() -> Self {
         let curvature = DMatrix::zeros(PARAMETER_COUNT, PARAMETER_COUNT);
-        Self { cost: 0.0, gradient: Parameters::zeros(), curvature }
+        Self { cost: 0.0, gradient: Parameters::zeros(), curvature, motions: Vec::new() }
     }
 }
 
@@ -56,12 +58,19 @@ const FIRM: f64 = 100.0;
 impl Problem {
     /// At `body`, residuals beyond `cut` standard deviations losing their say.
     pub fn linearize(&self, body: &FittedBody, cut: f64) -> Linearized {
+        self.linearize_from(body, &vec![Isometry3::identity(); self.others.len()], cut)
+    }
+
+    /// The same, the motions of other views' readings found from these.
+    pub fn linearize_from(&self, body: &FittedBody, motions: &[Isometry3<f64>], cut: f64) -> Linearized {
         let mut sums = Linearized::zeros();
         for part in &self.parts {
             add_part(&mut sums, part, body, None, cut);
         }
-        for view in &self.others {
-            view.add_to(&mut sums, body, cut);
+        for (view, start) in self.others.iter().zip(motions) {
+            let motion = view.motion(body, start, cut);
+            view.add_to(&mut sums, body, &motion, cut);
+            sums.motions.push(motion);
         }
         self.add_support(&mut sums, body, cut);
         for prior in &self.priors {

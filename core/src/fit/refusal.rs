@@ -8,6 +8,8 @@ pub enum NotFitted {
     Singular,
     StepsSpent(usize),
     NoStepBetters,
+    /// It reaches into what it stands on.
+    Sunk,
     /// A number of the body that no box has.
     Absurd {
         name: &'static str,
@@ -22,6 +24,7 @@ impl fmt::Display for NotFitted {
             Self::Singular => write!(f, "the readings leave the body undetermined"),
             Self::StepsSpent(steps) => write!(f, "it had not converged after {steps} steps"),
             Self::NoStepBetters => write!(f, "no step bettered it before it had converged"),
+            Self::Sunk => write!(f, "it reaches into what it stands on"),
             Self::Absurd { name, value } => write!(f, "its {name} came out as {value:.4}"),
         }
     }

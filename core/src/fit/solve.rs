@@ -1,5 +1,5 @@
 use nalgebra::DMatrix;
-use nalgebra::{Cholesky, Dyn};
+use nalgebra::{Cholesky, Dyn, Isometry3};
 
 use super::body::{FittedBody, Parameters};
 use super::layout::PARAMETER_COUNT;
@@ -12,6 +12,8 @@ pub struct Solution {
     pub body: FittedBody,
     /// Inverse of the curvature: of independent readings.
     pub covariance: DMatrix<f64>,
+    /// Of other views' readings, object's frame: where they suit the body best.
+    pub motions: Vec<Isometry3<f64>>,
 }
 
 const FIRST_DAMPING: f64 = 1e-3;
@@ -38,7 +40,7 @@ pub fn solve(problem: &Problem, start: &FittedBody) -> Result<Solution, NotFitte
     let mut descent = Descent::new(problem, body, last);
     descent.run(problem.settings.max_steps)?;
     let covariance = factor(&descent.at.curvature, 0.0).ok_or(NotFitted::Singular)?.inverse();
-    Ok(Solution { body: descent.body, covariance })
+    Ok(Solution { body: descent.body, covariance, motions: descent.at.motions })
 }
 
 struct Descent<'a> {
@@ -78,7 +80,7 @@ impl<'a> Descent<'a> {
                 return Ok(true);
             }
             let body = self.body.moved(&step);
-            let at = self.problem.linearize(&body, self.cut);
+            let at = self.problem.linearize_from(&body, &self.at.motions, self.cut);
             if at.cost < self.at.cost {
                 (self.body, self.at) = (body, at);
                 self.damping = (self.damping / 10.0).max(LEAST_DAMPING);

@@ -5,7 +5,7 @@ use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
 use super::sight::{reading_of, Sight};
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer, ScoreTermAnswer};
-use crate::fit::{fill, lean_name, wall_lean, FitSettings, KnownSize, Role, Solution};
+use crate::fit::{fill, lean_name, wall_lean, FitSettings, KnownSize, Role};
 use crate::free_space::PartState;
 use crate::model::{Body, Template};
 
@@ -40,10 +40,9 @@ pub fn answer(
         parts[part].points = points.len();
         readings.push((part, points.to_vec()));
     }
-    let mut body = found.solution.body.clone();
     let input_from_level = sights.first()?.input_from_level;
-    body.input_from_object = input_from_level * body.input_from_object;
-    let solution = Solution { body, covariance: found.solution.covariance.clone() };
+    let mut solution = found.solution.clone();
+    solution.body.input_from_object = input_from_level * solution.body.input_from_object;
     for k in 0..4 {
         // A flap on a flap that was not seen hangs on nothing.
         let (Some(flap), Some(tuck)) = (box_roles.flaps[k], box_roles.tucks[k]) else { continue };

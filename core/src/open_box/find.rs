@@ -5,6 +5,7 @@ use super::grow::{finish, grow, FoundBox, COARSE_M};
 use super::hanging::{scan_flaps, COARSE_SCAN};
 use super::judgement::{probability, Judgement};
 use super::owners::Owners;
+use super::refused::{Refusal, Refused};
 use super::shells::{outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
@@ -16,7 +17,8 @@ const RIVALS_FITTED: usize = 8;
 /// How well a proposal's lengths are known.
 const PROPOSED_SIGMA_M: f64 = 0.01;
 
-/// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings.
+/// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings. And those that were
+/// borne out but whose fit did not end in a box.
 ///
 /// Of rivals those that have one of the given `sizes` win.
 pub fn find(
@@ -25,7 +27,7 @@ pub fn find(
     sizes: &[KnownSize],
     settings: &FitSettings,
     judgement: Option<&Judgement>,
-) -> Vec<FoundBox> {
+) -> (Vec<FoundBox>, Vec<Refused>) {
     let owners = Owners::new(scene, sight.points.len());
     let mut shells = shells(sight, scene);
     for shell in &mut shells {
@@ -41,7 +43,15 @@ pub fn find(
     };
     let weighed = |one: FoundBox| FoundBox { probability: judged(&one), size: best_match(&one.solution, sizes), ..one };
     let found = grown.map(weighed).collect();
-    choose(found, sight.width).into_iter().filter_map(|one| finish(sight, &owners, one, sizes, settings)).collect()
+    let (mut out, mut refused) = (Vec::new(), Vec::new());
+    for one in choose(found, sight.width) {
+        let body = one.solution.body.clone();
+        match finish(sight, &owners, one, sizes, settings) {
+            Ok(one) => out.push(one),
+            Err(why) => refused.push(Refused { body, why: Refusal::NotFitted(why) }),
+        }
+    }
+    (out, refused)
 }
 
 /// Without those that lie upon enough better ones.

@@ -12,7 +12,8 @@ use super::start::body_of;
 use super::sure::{drop_unsure, long_enough};
 use super::surfaces::{label, roles, Labels, Present};
 use crate::fit::{
-    canonical_turn, check, layout, with_known_size, FitSettings, FittedBody, KnownSize, Role, SizeMatch, Solution,
+    canonical_turn, check, layout, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role, SizeMatch,
+    Solution,
 };
 
 /// An open box in the level frame.
@@ -45,29 +46,32 @@ pub fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<Foun
     let (body, present) = with_flaps(&body_of(&shell.proposal), &shell.flaps);
     let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
-    sound(&solution.body)?;
+    sound(&solution.body).ok()?;
     let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, ONCE_FITTED_M, FINE_SCAN));
     let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
     drop_unsure(sight, &body, &mut labels);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
-    sound(&solution.body)?;
+    sound(&solution.body).ok()?;
     Some(weigh(sight, solution, present, COARSE_STRIDE))
 }
 
 /// A box that has won, with its tuck flaps, fitted to all of its readings; it takes the one of `sizes` that it matches, if any.
+///
+/// # Errors
+/// As of the fit, and where it ends in what is no box.
 pub fn finish(
     sight: &Sight,
     owners: &Owners,
     found: FoundBox,
     sizes: &[KnownSize],
     settings: &FitSettings,
-) -> Option<FoundBox> {
+) -> Result<FoundBox, NotFitted> {
     let turn = canonical_turn(&found.solution.body, Some(sight.eye));
     let (body, present) = (found.solution.body.turned(turn), found.present.turned(turn));
     let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);
-    let solution = refit(sight, &body, &present, &labels, settings).ok()?;
+    let solution = refit(sight, &body, &present, &labels, settings)?;
     sound(&solution.body)?;
     let (solution, present) = look_again(sight, solution, present, settings);
     let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
@@ -79,12 +83,16 @@ pub fn finish(
         (!points.is_empty()).then(|| (*role, features::of_part(sight, owners, &out, *role, points, evidence)))
     };
     out.part_features = out.evidence.iter().filter_map(of).collect();
-    Some(out)
+    Ok(out)
 }
 
-/// A body that may be a box's.
-pub fn sound(body: &FittedBody) -> Option<()> {
-    (check(body).is_ok() && !is_sunk(body)).then_some(())
+/// Refuses a body that no box has.
+pub fn sound(body: &FittedBody) -> Result<(), NotFitted> {
+    check(body)?;
+    if is_sunk(body) {
+        return Err(NotFitted::Sunk);
+    }
+    Ok(())
 }
 
 /// A flap that was missed, or fitted where little lies, is taken from a scan of its edge where now more is met.
@@ -104,7 +112,7 @@ fn look_again(sight: &Sight, solution: Solution, present: Present, settings: &Fi
     let both = Present { flaps: std::array::from_fn(|k| present.flaps[k] || scanned.flaps[k]), ..present };
     let mut labels = label(sight, &body, &both, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);
-    let again = refit(sight, &body, &both, &labels, settings).ok().filter(|again| sound(&again.body).is_some());
+    let again = refit(sight, &body, &both, &labels, settings).ok().filter(|again| sound(&again.body).is_ok());
     match again.map(|again| weigh(sight, again, both, 1)) {
         // A flap fitted to what is none costs more than it holds.
         Some(again) if again.score > weigh(sight, solution.clone(), present, 1).score => (again.solution, both),

@@ -1,5 +1,3 @@
-use nalgebra::Isometry3;
-
 use super::ends::ends;
 use super::evidence::Sheet;
 use super::settle::{lowest_m, settled, LEVEL_COS};
@@ -27,11 +25,11 @@ pub fn refit(
     labels: &Labels,
     settings: &FitSettings,
 ) -> Result<Solution, NotFitted> {
-    refit_views(&[(sight, labels)], body, present, settings).map(|(solution, _)| solution)
+    refit_views(&[(sight, labels)], body, present, settings)
 }
 
-/// The same, fitted to the readings of several views in one level frame, each of which sees its own faces (eq. 99). With it the
-/// motions of further views' readings in that frame that suit the body best: their places are known only so well.
+/// The same, fitted to the readings of several views in one level frame, each of which sees its own faces (eq. 99). Further views'
+/// places are known only so well.
 ///
 /// # Errors
 /// As of the fit.
@@ -40,7 +38,7 @@ pub fn refit_views(
     body: &FittedBody,
     present: &Present,
     settings: &FitSettings,
-) -> Result<(Solution, Vec<Isometry3<f64>>), NotFitted> {
+) -> Result<Solution, NotFitted> {
     let body = &settled(body);
     let mut parts = views.iter().map(|(sight, labels)| readings_of(sight, body, present, labels, settings));
     let first = parts.next().unwrap_or_default();
@@ -59,11 +57,7 @@ pub fn refit_views(
         priors: priors(body),
         settings: *settings,
     };
-    let solution = solve(&problem, body)?;
-    let at = solution.body.input_from_object;
-    let motion = |view: &OtherView| at * view.motion(&solution.body, settings.last_cut) * at.inverse();
-    let motions = problem.others.iter().map(motion).collect();
-    Ok((solution, motions))
+    solve(&problem, body)
 }
 
 /// Of a view's place where the body is: far off a turn of the camera is a shift.

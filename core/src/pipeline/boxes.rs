@@ -7,12 +7,15 @@ use crate::cloud::CloudView;
 use crate::fit::{FitSettings, KnownSize};
 use crate::inference::ObjectModel;
 use crate::model::Template;
-use crate::open_box::{self, open_boxes, FoundBox, Judgement, Kinds, Shape, Sight};
+use crate::open_box::{self, open_boxes, FoundBox, Judgement, Kinds, Refusal, Refused, Shape, Sight};
 use crate::perception::readings::Readings;
 use crate::perception::Scene;
 
 /// A box where there is none costs more than one that is missed: its odds must be better than even.
 const LEAST_PROBABILITY: f64 = 0.6;
+
+/// An object has at least so many panels with enough readings.
+const LEAST_PANELS: usize = 3;
 
 /// How fitted boxes become objects: templates that compete, what tells them apart, what is known of boxes.
 #[derive(Clone, Copy)]
@@ -39,14 +42,14 @@ pub fn whole_boxes(
     open_boxes(&templates).next()?;
     let telling = Telling { templates: &templates, kinds, judgement, sizes, settings: FitSettings::default() };
     let sight = Sight::new(cloud, readings, scene)?;
-    let found = open_box::find(&sight, scene, sizes, &telling.settings, judgement);
-    let mut answer = tell_boxes(&found, &[sight], &telling);
+    let (found, refused) = open_box::find(&sight, scene, sizes, &telling.settings, judgement);
+    let mut answer = tell_boxes(&found, &refused, &[sight], &telling);
     answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
     Some(answer)
 }
 
 /// The boxes that are sure enough, in the first view's input frame; points are numbered on from view to view.
-pub fn tell_boxes(found: &[FoundBox], sights: &[Sight], telling: &Telling) -> Answer {
+pub fn tell_boxes(found: &[FoundBox], refused: &[Refused], sights: &[Sight], telling: &Telling) -> Answer {
     let point_count = sights.iter().map(|sight| sight.points.len()).sum();
     let mut answer = Answer {
         objects: Vec::new(),
@@ -56,22 +59,35 @@ pub fn tell_boxes(found: &[FoundBox], sights: &[Sight], telling: &Telling) -> An
         shapes: Vec::new(),
         free_space: true,
         stage_seconds: Vec::new(),
+        refused: sights.first().map_or_else(Vec::new, |first| lines(refused, first)),
         features: Vec::new(),
     };
     for one in found {
-        tell_box(&mut answer, one, sights, telling);
+        if let Some(why) = tell_box(&mut answer, one, sights, telling) {
+            let refused = Refused { body: one.solution.body.clone(), why };
+            answer.refused.extend(sights.first().map(|first| refused.line(&first.input_from_level)));
+        }
     }
     answer
 }
 
-fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Telling) {
+fn lines(refused: &[Refused], first: &Sight) -> Vec<String> {
+    refused.iter().map(|one| one.line(&first.input_from_level)).collect()
+}
+
+/// Adds a box to the answer, or says why it is none.
+fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Telling) -> Option<Refusal> {
     let Telling { templates, kinds, judgement, sizes, settings } = telling;
     let shape = Shape::of_found(one);
-    let Some((number, probability)) = kinds.choose(&shape, templates) else { return };
+    let (number, probability) = kinds.choose(&shape, templates)?;
     let told = open_box::answer(one, templates[number], probability, sights, sizes, settings, *judgement);
-    let Some((object, parts)) = told else { return };
-    if object.probability.is_some_and(|p| p < LEAST_PROBABILITY) {
-        return;
+    let (object, parts) = told?;
+    if let Some(probability) = object.probability.filter(|p| *p < LEAST_PROBABILITY) {
+        return Some(Refusal::Improbable { probability, least: LEAST_PROBABILITY });
+    }
+    let seen = object.parts.iter().filter(|part| part.observed).count();
+    if seen < LEAST_PANELS {
+        return Some(Refusal::FewPanels { seen, least: LEAST_PANELS });
     }
     for (part, points) in parts {
         for point in points {
@@ -84,4 +100,5 @@ fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Tel
     answer.features.push(ObjectFeatures { of_box: by_name(&one.features), parts: parts.collect() });
     answer.objects.push(object);
     answer.shapes.push(Some(shape));
+    None
 }

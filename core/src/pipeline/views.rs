@@ -70,7 +70,7 @@ pub fn infer_views(
         let mend = "frames that are fused are organized clouds (height above 1) with a viewpoint";
         InputError::new("has no image grid, no viewpoint or no readings").mend(mend).in_source(named(number))
     })?;
-    let mut answer = tell_boxes(&fused.found, &fused.sights, &telling);
+    let mut answer = tell_boxes(&fused.found, &fused.refused, &fused.sights, &telling);
     answer.warnings.extend(fused.warnings);
     answer.warnings.extend(size_warnings(&answer.objects, sizes));
     answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));

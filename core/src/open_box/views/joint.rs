@@ -10,7 +10,7 @@ use super::super::surfaces::{label, Labels, Present};
 use super::flaps::{best_flaps, best_tucks};
 use super::gather::Views;
 use super::matching::Sighting;
-use crate::fit::{canonical_turn, with_known_size, FitSettings, FittedBody, KnownSize, Solution};
+use crate::fit::{canonical_turn, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Solution};
 use crate::open_box::FoundBox;
 
 /// Every so many columns and rows are asked while starts still compete.
@@ -18,33 +18,33 @@ const COARSE_STRIDE: usize = 2;
 /// Looks at the flaps of the body that won, at most.
 const LOOKS: usize = 2;
 
-/// The box that a group of sightings is of, the best of its joint fits from each of them; where none ends, its best sighting as it
-/// was, and a line that says so.
+/// The box that a group of sightings is of: the best of its joint fits from each of them.
+///
+/// # Errors
+/// Where none ends in a box: why the last one does not.
 pub fn fit_group(
     views: &Views,
     group: &[Sighting],
     sizes: &[KnownSize],
     settings: &FitSettings,
-    warnings: &mut Vec<String>,
-) -> FoundBox {
+) -> Result<FoundBox, NotFitted> {
     let coarse = coarse(settings);
-    let mut best: Option<(f64, Solution, Present)> = None;
+    let mut best = Err(NotFitted::NoBox);
+    let mut most = f64::NEG_INFINITY;
     for start in group {
-        let Some((solution, present)) = grow_jointly(views.sights, start, group, &coarse) else { continue };
-        let score = views.score(&solution, present, COARSE_STRIDE);
-        if best.as_ref().is_none_or(|(most, ..)| score > *most) {
-            best = Some((score, solution, present));
+        let grown = grow_jointly(views.sights, start, group, &coarse);
+        let score = grown.as_ref().map(|(solution, present)| views.score(solution, *present, COARSE_STRIDE));
+        match score {
+            Ok(score) if score > most => (best, most) = (grown, score),
+            Err(_) if best.is_err() => best = grown,
+            _ => {}
         }
     }
-    let finished = best.and_then(|(_, solution, present)| finish(views, solution, present, group, settings));
-    let (solution, present) = finished.unwrap_or_else(|| {
-        warnings.push(format!("no body fitted to all frames converged; that of frame {} is told", group[0].view + 1));
-        let turn = canonical_turn(group[0].body(), Some(views.sights[0].eye));
-        let covariance = group[0].found.solution.covariance.clone();
-        (Solution { body: group[0].body().turned(turn), covariance }, group[0].found.present.turned(turn))
-    });
+    let (solution, present) = best?;
+    let (solution, present) = finish(views, solution, present, group, settings)?;
     let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
-    views.gather(&solution, present, size)
+    sound(&solution.body)?;
+    Ok(views.gather(&solution, present, size))
 }
 
 /// From one view's body to one that is fitted to some readings of all.
@@ -53,13 +53,13 @@ fn grow_jointly(
     start: &Sighting,
     group: &[Sighting],
     settings: &FitSettings,
-) -> Option<(Solution, Present)> {
+) -> Result<(Solution, Present), NotFitted> {
     let others = numbered_as(group, start.body());
     let (body, present) = best_flaps(sights, start.body(), &start.found.present, &others, COARSE_M);
-    let (solution, _) = refit_labelled(sights, &body, &present, COARSE_M, COARSE_STRIDE, settings)?;
+    let solution = refit_labelled(sights, &body, &present, COARSE_M, COARSE_STRIDE, settings)?;
     let (body, present) = best_flaps(sights, &solution.body, &present, &others, ONCE_FITTED_M);
-    let (solution, _) = refit_labelled(sights, &body, &present, FINE_M, COARSE_STRIDE, settings)?;
-    Some((solution, present))
+    let solution = refit_labelled(sights, &body, &present, FINE_M, COARSE_STRIDE, settings)?;
+    Ok((solution, present))
 }
 
 /// With tuck flaps, fitted to all readings; what a last look at its flaps brings is kept where more is met then.
@@ -69,26 +69,26 @@ fn finish(
     present: Present,
     group: &[Sighting],
     settings: &FitSettings,
-) -> Option<(Solution, Present)> {
+) -> Result<(Solution, Present), NotFitted> {
     let sights = views.sights;
     let turn = canonical_turn(&solution.body, Some(sights[0].eye));
     let (body, present) = (solution.body.turned(turn), present.turned(turn));
     let others = numbered_as(group, &body);
     let (body, mut present) = best_tucks(sights, &body, &present, &others, FINE_M);
-    let (mut solution, _) = refit_labelled(sights, &body, &present, FINE_M, 1, settings)?;
+    let mut solution = refit_labelled(sights, &body, &present, FINE_M, 1, settings)?;
     for _ in 0..LOOKS {
         let (body, has) = best_flaps(sights, &solution.body, &present, &others, FINE_M);
         if body == solution.body && has == present {
             break;
         }
         let (body, has) = best_tucks(sights, &body, &has, &others, FINE_M);
-        let Some((again, _)) = refit_labelled(sights, &body, &has, FINE_M, 1, settings) else { break };
+        let Ok(again) = refit_labelled(sights, &body, &has, FINE_M, 1, settings) else { break };
         if views.score(&again, has, 1) <= views.score(&solution, present, 1) {
             break;
         }
         (solution, present) = (again, has);
     }
-    Some((solution, present))
+    Ok((solution, present))
 }
 
 /// Motions of the further views' readings, level frame, that suit a box best which several of them saw: their places as it tells them.
@@ -97,8 +97,9 @@ pub fn motions(sights: &[Sight], group: &[Sighting], settings: &FitSettings) -> 
     let start = &group[0];
     let others = numbered_as(group, start.body());
     let (body, present) = best_flaps(sights, start.body(), &start.found.present, &others, COARSE_M);
-    let (_, motions) = refit_labelled(sights, &body, &present, COARSE_M, COARSE_STRIDE, &settings)?;
-    Some(motions)
+    let solution = refit_labelled(sights, &body, &present, COARSE_M, COARSE_STRIDE, &settings).ok()?;
+    let at = solution.body.input_from_object;
+    Some(solution.motions.iter().map(|motion| at * motion * at.inverse()).collect())
 }
 
 /// While boxes and places are not yet known well.
@@ -110,7 +111,10 @@ fn numbered_as(group: &[Sighting], body: &FittedBody) -> Vec<(FittedBody, Presen
     group.iter().map(|one| one.numbered_as(body)).collect()
 }
 
-/// Fitted to the readings of all views that lie on it (eq. 99); `None` where that does not end in a box.
+/// Fitted to the readings of all views that lie on it (eq. 99).
+///
+/// # Errors
+/// Where that does not end in a box.
 fn refit_labelled(
     sights: &[Sight],
     body: &FittedBody,
@@ -118,7 +122,7 @@ fn refit_labelled(
     model_m: f64,
     stride: usize,
     settings: &FitSettings,
-) -> Option<(Solution, Vec<Isometry3<f64>>)> {
+) -> Result<Solution, NotFitted> {
     let of_view = |sight: &Sight| {
         let mut labels = label(sight, body, present, model_m, stride);
         drop_unsure(sight, body, &mut labels);
@@ -126,7 +130,7 @@ fn refit_labelled(
     };
     let labels: Vec<Labels> = sights.iter().map(of_view).collect();
     let views: Vec<_> = sights.iter().zip(&labels).collect();
-    let (solution, motions) = refit_views(&views, body, present, settings).ok()?;
+    let solution = refit_views(&views, body, present, settings)?;
     sound(&solution.body)?;
-    Some((solution, motions))
+    Ok(solution)
 }

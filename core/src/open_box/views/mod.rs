@@ -15,6 +15,7 @@ use super::find::find;
 use super::grow::FoundBox;
 use super::judgement::Judgement;
 use super::owners::Owners;
+use super::refused::{Refusal, Refused};
 use super::sight::Sight;
 use crate::cloud::CloudView;
 use crate::fit::{FitSettings, KnownSize};
@@ -37,6 +38,8 @@ pub struct View<'a> {
 pub struct Fused<'a> {
     pub sights: Vec<Sight<'a>>,
     pub found: Vec<FoundBox>,
+    /// Boxes of one or more views that no joint fit ended in.
+    pub refused: Vec<Refused>,
     /// What a user should know, one line each.
     pub warnings: Vec<String>,
 }
@@ -56,10 +59,14 @@ pub fn fuse<'a>(
         .enumerate()
         .map(|(number, view)| Sight::new(&view.cloud, &view.readings, view.scene).ok_or(number))
         .collect::<Result<_, _>>()?;
-    let mut found: Vec<Vec<FoundBox>> =
-        own.iter().zip(views).map(|(sight, view)| find(sight, view.scene, sizes, settings, judgement)).collect();
+    let (mut found, mut refused) = (Vec::new(), Vec::new());
+    for (sight, view) in own.iter().zip(views) {
+        let (of_view, not_told) = find(sight, view.scene, sizes, settings, judgement);
+        found.push(of_view);
+        refused.push(not_told);
+    }
     if views.len() == 1 {
-        return Ok(Fused { sights: own, found: found.remove(0), warnings: Vec::new() });
+        return Ok(Fused { sights: own, found: found.remove(0), refused: refused.remove(0), warnings: Vec::new() });
     }
     let first_from_level = common_level(views, &own, &found).ok_or(0_usize)?;
     let sights: Vec<Sight> = views
@@ -76,15 +83,18 @@ pub fn fuse<'a>(
         sightings.extend(of_view.into_iter().map(|one| Sighting::new(view, &level_from_own, one)));
     }
     let groups = groups(sightings);
-    let (sights, mut warnings) = places::bettered(views, sights, &groups, settings).ok_or(0_usize)?;
+    let (sights, warnings) = places::bettered(views, sights, &groups, settings).ok_or(0_usize)?;
     let owners = views.iter().map(|view| Owners::new(view.scene, view.cloud.points.len())).collect();
     let all = Views { sights: &sights, owners, judgement };
-    let mut fitted = Vec::new();
+    let (mut fitted, mut refused) = (Vec::new(), Vec::new());
     for group in &groups {
-        fitted.push(joint::fit_group(&all, group, sizes, settings, &mut warnings));
+        match joint::fit_group(&all, group, sizes, settings) {
+            Ok(one) => fitted.push(one),
+            Err(why) => refused.push(Refused { body: group[0].body().clone(), why: Refusal::NotFitted(why) }),
+        }
     }
     // All images as one row.
     let points = sights.iter().map(|sight| sight.points.len()).sum();
     let found = choose(fitted, points);
-    Ok(Fused { sights, found, warnings })
+    Ok(Fused { sights, found, refused, warnings })
 }
