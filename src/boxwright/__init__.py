@@ -11,6 +11,7 @@ y down, z forward). Names are loaded when they are first used.
 - `Cloud`: points (N, 3) float32, metres; pixel (u, v) of an organized one is point v * width + u.
 - `read_cloud(path, ...) -> Cloud`: PCD, PLY, NPY, or a depth PNG with its intrinsics.
 - `infer(cloud, ...) -> Inferred`: the model, and the object and part of each point, (N,) int16, -1 for none.
+- `infer_frames(frames, ...) -> Fused`: one model of several frames, each a `PosedCloud(cloud, base_from_camera (4, 4))`.
 - `KnownSize`, `read_sizes(path)`: outer sizes of boxes, metres; `infer(cloud, method="fitted", sizes=...)` uses them.
 - `segment(cloud, ...) -> Segmented`: the cloud's planar segments without meaning, as a record and as perceived.
 - `Model`: panels (4 corners, metres), hinges (origin, axis, position in radians: 0 closed, growing as a flap opens).
@@ -28,8 +29,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from boxwright.fusion import infer_frames
     from boxwright.io.clouds import read_cloud
     from boxwright.io.models import load_model
+    from boxwright.io.poses import read_poses
     from boxwright.io.sizes import read_sizes
     from boxwright.kinematics import save_mjcf, save_sdf, save_urdf
     from boxwright.pipeline import infer
@@ -37,7 +40,7 @@ if TYPE_CHECKING:
     from boxwright.scoring import evaluate
     from boxwright.segmentation import segment
     from boxwright.simulation.physics import simulate
-    from boxwright.types import Cloud, KnownSize, Model
+    from boxwright.types import Cloud, KnownSize, Model, PosedCloud
 
 __version__ = "0.1.0"
 
@@ -45,12 +48,15 @@ __all__ = [
     "Cloud",
     "KnownSize",
     "Model",
+    "PosedCloud",
     "__version__",
     "evaluate",
     "infer",
+    "infer_frames",
     "load_model",
     "plan_closing",
     "read_cloud",
+    "read_poses",
     "read_sizes",
     "save_mjcf",
     "save_sdf",
@@ -63,11 +69,14 @@ _HOMES = {
     "Cloud": "boxwright.types",
     "KnownSize": "boxwright.types",
     "Model": "boxwright.types",
+    "PosedCloud": "boxwright.types",
     "evaluate": "boxwright.scoring",
     "infer": "boxwright.pipeline",
+    "infer_frames": "boxwright.fusion",
     "load_model": "boxwright.io.models",
     "plan_closing": "boxwright.planning",
     "read_cloud": "boxwright.io.clouds",
+    "read_poses": "boxwright.io.poses",
     "read_sizes": "boxwright.io.sizes",
     "save_mjcf": "boxwright.kinematics",
     "save_sdf": "boxwright.kinematics",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from boxwright.fusion import Fused
 from boxwright.io.labels import PointLabels, write_labels
 from boxwright.io.models import save_model
 from boxwright.io.segments import save_segments, write_segment_labels
@@ -30,13 +31,23 @@ def save_answer(inferred: Inferred, folder: Path, name: str, formats: Sequence[s
     model, labels = folder / "model.json", folder / "labels.npz"
     save_model(inferred.model, model)
     write_labels(PointLabels(object=inferred.object_labels, part=inferred.part_labels), labels)
-    _remove_exports(folder, name)
-    exports = []
-    for k, found in enumerate(inferred.model.objects):
-        for suffix in formats if found.pose is not None else ():
-            exports.append(folder / f"{name}_{k}.{suffix}")
-            WRITERS[suffix](found, exports[-1])
-    return (model, labels, *exports)
+    return (model, labels, *_save_exports(inferred.model.objects, folder, name, formats))
+
+
+def save_fused(fused: Fused, folder: Path, name: str, formats: Sequence[str] = ("urdf",)) -> tuple[Path, ...]:
+    """Writes the answer to several frames as `save_answer` does; labels_K.npz are those of frame K, counted from 1.
+
+    Raises OSError when something cannot be written, KeyError for a format that WRITERS does not have.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    model = folder / "model.json"
+    save_model(fused.model, model)
+    for earlier in folder.glob("labels*.npz"):
+        earlier.unlink()
+    labels = [folder / f"labels_{number}.npz" for number in range(1, len(fused.labels) + 1)]
+    for path, of_frame in zip(labels, fused.labels, strict=True):
+        write_labels(of_frame, path)
+    return (model, *labels, *_save_exports(fused.model.objects, folder, name, formats))
 
 
 def save_segmentation(segmented: Segmented, folder: Path) -> tuple[Path, ...]:
@@ -49,6 +60,16 @@ def save_segmentation(segmented: Segmented, folder: Path) -> tuple[Path, ...]:
     save_segments(segmented.segmentation, segments)
     write_segment_labels(segmented.perception.labels, labels)
     return segments, labels
+
+
+def _save_exports(objects: Sequence[Object], folder: Path, name: str, formats: Sequence[str]) -> list[Path]:
+    _remove_exports(folder, name)
+    exports = []
+    for k, found in enumerate(objects):
+        for suffix in formats if found.pose is not None else ():
+            exports.append(folder / f"{name}_{k}.{suffix}")
+            WRITERS[suffix](found, exports[-1])
+    return exports
 
 
 def _remove_exports(folder: Path, name: str) -> None:

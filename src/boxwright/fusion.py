@@ -16,7 +16,7 @@ from boxwright.io.labels import PointLabels
 from boxwright.kinematics.transforms import Matrix, apply, inverse, quaternion_wxyz
 from boxwright.models import load_judgement, load_kinds, load_object_model, shipped_for
 from boxwright.perception import chosen
-from boxwright.pipeline import PLANES_OF_METHOD, SEARCH_OF_METHOD, TEMPLATES_OF_METHOD
+from boxwright.pipeline import PLANES_OF_METHOD, SEARCH_OF_METHOD, TEMPLATES_OF_METHOD, Inferred
 from boxwright.segmentation import Bounds, inside, support_plane_of, vector
 from boxwright.types import Cloud, FrameSource, KnownSize, Pose, PosedCloud, Source
 from boxwright.types.model import Model, Object, Seconds
@@ -30,11 +30,23 @@ _OBJECT = msgspec.json.Decoder(Object)
 
 @dataclass(frozen=True)
 class Fused:
-    """The answer to several frames: the model in the first one's coordinates, and for each frame the labels of its points."""
+    """The answer to several frames: the model in the first one's coordinates, and for each frame the labels of its points.
+
+    `shapes` are those of `Inferred`.
+    """
 
     model: Model
     labels: tuple[PointLabels, ...]
     perceptions: tuple[_core.Perception, ...]
+    shapes: NDArray[np.float64]
+    refused: tuple[str, ...]
+    """Candidates that are no objects, and why, one line each."""
+
+    @property
+    def first(self) -> Inferred:
+        """The answer with the labels of the first frame alone."""
+        labels = self.labels[0]
+        return Inferred(self.model, labels.object, labels.part, self.perceptions[0], self.shapes, self.refused)
 
 
 def infer_frames(
@@ -98,7 +110,8 @@ def infer_frames(
         free_space="used",
         objects=objects,
     )
-    return Fused(model, _by_frame(answer, frames), tuple(perceptions))
+    labels = _by_frame(answer, frames)
+    return Fused(model, labels, tuple(perceptions), answer.shapes, tuple(answer.refused))
 
 
 def _within(cloud: Cloud, first_from_frame: Matrix, roi: Bounds | None) -> NDArray[np.float32]:

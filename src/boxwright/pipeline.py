@@ -57,6 +57,7 @@ class Inferred:
     """The answer to one cloud: the model, and for each point (N,) its object and part, int16, -1 for none.
 
     `shapes` (objects, F) holds what tells each object's template, `_core.SHAPE_FEATURES`; NaN where no body was fitted.
+    `refused` says of candidates of the method "fitted" that are no objects why, one line each.
     """
 
     model: Model
@@ -64,6 +65,7 @@ class Inferred:
     part_labels: NDArray[np.int16]
     perception: _core.Perception
     shapes: NDArray[np.float64]
+    refused: tuple[str, ...] = ()
 
 
 def infer(
@@ -143,4 +145,5 @@ def infer(
         free_space="no viewpoint" if cloud.viewpoint is None else "used" if answer.free_space else "not used",
         objects=objects,
     )
-    return Inferred(model, answer.object_labels, answer.part_labels, perception, answer.shapes)
+    refused = tuple(answer.refused)
+    return Inferred(model, answer.object_labels, answer.part_labels, perception, answer.shapes, refused)

@@ -18,6 +18,7 @@ LAYERS = (
     ("learning", "planning"),
     ("segmentation", "replanning"),
     ("pipeline",),
+    ("fusion",),
     ("answers", "scoring", "kinds", "labelling", "runner_up"),
     ("figures",),
     (FACE,),

@@ -9,19 +9,20 @@ import typer
 
 from boxwright.cli.groups import grouped
 from boxwright.cli.options import (
-    CloudsArgument,
+    CloudsOrPosesArgument,
     InputsOption,
     JsonOption,
     KnownOptions,
     ModelOptions,
     OutOption,
+    PosesOption,
     ReadOptions,
     SceneOptions,
     VerboseOption,
 )
 
 if TYPE_CHECKING:
-    from boxwright.types import Model
+    from boxwright.cli.infer_report import Told
 
 FigureOption = Annotated[bool, typer.Option("--figure", help="Draw NAME.png beside each model.json.")]
 
@@ -31,12 +32,13 @@ SdfOption = Annotated[bool, typer.Option("--sdf", help="Write NAME_K.sdf too, fo
 
 @grouped
 def infer(
-    clouds: CloudsArgument,
     output: OutOption,
     model: ModelOptions,
     reading: ReadOptions,
     scene: SceneOptions,
     known: KnownOptions,
+    clouds: CloudsOrPosesArgument = None,
+    poses: PosesOption = None,
     figure: FigureOption = False,
     mjcf: MjcfOption = False,
     sdf: SdfOption = False,
@@ -47,7 +49,8 @@ def infer(
     """Find the open boxes of each cloud: panels, hinges, how far each flap is open.
 
     Writes DIR/NAME/ for each CLOUD: [bold]model.json[/], [bold]labels.npz[/] (object and part of each point) and
-    [bold]NAME_K.urdf[/] for each object K with a pose. No object is an answer too.
+    [bold]NAME_K.urdf[/] for each object K with a pose. No object is an answer too. --poses takes several frames of one
+    scene instead, and writes one model of them and [bold]labels_K.npz[/] for each frame K.
 
     [bold]Examples[/]
 
@@ -57,31 +60,43 @@ def infer(
 
     boxwright infer frame.pcd -o out --method fitted --size 400x300x200
 
+    boxwright infer --poses looks.toml -o out
+
     boxwright infer depth.png -o out --intrinsics camera.json --roi=-1,1,-1,1,0.4,2
     """
     import time
 
-    from boxwright.answers import save_answer
-    from boxwright.cli.infer_report import print_json, print_outcome
-    from boxwright.cli.outcome import answer_each, refuse_shared_names
+    from boxwright.answers import save_answer, save_fused
+    from boxwright.cli.frames import inputs_of, name_of_poses, read_frames
+    from boxwright.cli.infer_report import Told, print_json, print_outcome
+    from boxwright.cli.outcome import answer_each
     from boxwright.cli.pictures import frame_figure_drawer
 
-    refuse_shared_names(clouds)
+    inputs = inputs_of(clouds, poses, model)
     sizes = known.sizes(model.method_name)
     draw = frame_figure_drawer() if figure else None
     formats = ["urdf", *(["mjcf"] if mjcf else []), *(["sdf"] if sdf else [])]
 
-    def answer(path: Path) -> tuple[Model, tuple[Path, ...]]:
+    def answer(path: Path) -> tuple[Told, tuple[Path, ...]]:
         start = time.perf_counter()
+        if poses is not None:
+            frames = read_frames(path, reading)
+            fused = model.infer_frames(frames, scene, time.perf_counter() - start, sizes, path.name)
+            name = name_of_poses(path)
+            files = save_fused(fused, output / name, name, formats)
+            if draw is not None:
+                files = (*files, output / name / f"{name}.png")
+                draw(frames[0].cloud, fused.first, files[-1], model.template_names)
+            return Told(fused.model, fused.refused), files
         cloud = reading.read(path)
         inferred = model.infer(cloud, scene, time.perf_counter() - start, sizes)
         files = save_answer(inferred, output / path.stem, path.stem, formats)
         if draw is not None:
             files = (*files, output / path.stem / f"{path.stem}.png")
             draw(cloud, inferred, files[-1], model.template_names)
-        return inferred.model, files
+        return Told(inferred.model, inferred.refused), files
 
-    outcomes = answer_each(clouds, answer, lambda outcome: print_outcome(outcome, verbose, as_json), jobs, "infer")
+    outcomes = answer_each(inputs, answer, lambda outcome: print_outcome(outcome, verbose, as_json), jobs, "infer")
     if as_json:
         print_json(outcomes)
     if any(outcome.refusal for outcome in outcomes):

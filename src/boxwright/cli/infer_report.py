@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from boxwright.cli.outcome_report import head_of, print_files, print_problems, print_stages, print_summaries
@@ -16,28 +17,39 @@ if TYPE_CHECKING:
     from boxwright.types.truth import Vector
 
 
-def print_outcome(outcome: Outcome[Model], verbose: bool, as_json: bool) -> None:
+@dataclass(frozen=True)
+class Told:
+    """A model, and why candidates are no objects of it, one line each."""
+
+    model: Model
+    refused: tuple[str, ...] = ()
+
+
+def print_outcome(outcome: Outcome[Told], verbose: bool, as_json: bool) -> None:
     """One input: its error and warnings on standard error, its objects on standard output unless JSON is wanted."""
-    model = outcome.answer
+    model = None if outcome.answer is None else outcome.answer.model
     print_problems(outcome, () if model is None else model.warnings)
     if model is None or as_json:
         return
     out = console()
     head = head_of(outcome.cloud, len(model.objects), "object", model.seconds)
     out.print(object_table(head, model.objects) if model.objects else f"[bold]{head}[/]\n")
-    if verbose:
+    if verbose and outcome.answer is not None:
+        for line in outcome.answer.refused:
+            out.print(line, highlight=False)
         for k, found in enumerate(model.objects):
             print_knowledge(k, found, model.up)
         print_stages(model.seconds)
     print_files(outcome.files)
 
 
-def print_json(outcomes: list[Outcome[Model]]) -> None:
+def print_json(outcomes: list[Outcome[Told]]) -> None:
     """All inputs as one JSON list: what was found in which files, or the error."""
     print_summaries(outcomes, _as_json)
 
 
-def _as_json(model: Model) -> dict[str, Any]:
+def _as_json(told: Told) -> dict[str, Any]:
+    model = told.model
     return {
         "warnings": list(model.warnings),
         "seconds": model.seconds.total,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -11,9 +12,10 @@ import typer
 from boxwright.cli.values import Bounds, OuterSize, Triple
 
 if TYPE_CHECKING:
+    from boxwright.fusion import Fused
     from boxwright.pipeline import Inferred
     from boxwright.segmentation import Segmented
-    from boxwright.types import Cloud, KnownSize
+    from boxwright.types import Cloud, KnownSize, PosedCloud
 
 
 def _known_method(value: str | None) -> str | None:
@@ -158,8 +160,18 @@ CatalogueOption = Annotated[
 ]
 JobsOption = Annotated[int | None, typer.Option("--jobs", min=1, help="Threads; default: one for each processor.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for programs instead of tables.")]
-CloudsArgument = Annotated[
-    list[Path], typer.Argument(metavar="CLOUD...", help="Clouds: .pcd, .ply, .npy, or depth images .png.")
+CLOUDS_HELP = "Clouds: .pcd, .ply, .npy, or depth images .png."
+CloudsArgument = Annotated[list[Path], typer.Argument(metavar="CLOUD...", help=CLOUDS_HELP)]
+CloudsOrPosesArgument = Annotated[list[Path] | None, typer.Argument(metavar="CLOUD...", help=CLOUDS_HELP)]
+PosesOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--poses",
+        metavar="FILE.toml",
+        help="Frames of one static scene and where their cameras stood (docs/formats.md), fused into one model. "
+        "--method fitted.",
+        rich_help_panel=READING,
+    ),
 ]
 OutOption = Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the folders of answers.")]
 InputsOption = Annotated[int, typer.Option("--jobs", min=1, help="Inputs worked on at once.")]
@@ -220,6 +232,37 @@ class ModelOptions:
         from boxwright.pipeline import TEMPLATES_OF_METHOD
 
         return tuple(self.template) if self.template else TEMPLATES_OF_METHOD[self.method_name]
+
+    def infer_frames(
+        self,
+        frames: Sequence[PosedCloud],
+        scene: SceneOptions,
+        read_seconds: float = 0.0,
+        sizes: tuple[KnownSize, ...] = (),
+        source: str = "",
+    ) -> Fused:
+        """The objects of several frames of one scene; raises as `boxwright.infer_frames` does."""
+        from boxwright.fusion import infer_frames
+
+        return infer_frames(
+            frames,
+            templates=self.template_names,
+            up=scene.up,
+            roi=scene.roi,
+            planes=scene.planes,
+            sizes=sizes,
+            read_seconds=read_seconds,
+            source=source,
+        )
+
+    def refuse_for_frames(self) -> None:
+        """Raises typer.BadParameter where what was asked for cannot be had of several frames."""
+        if self.method_name != "fitted":
+            raise typer.BadParameter(
+                f"method {self.method_name!r} does not fuse frames; add --method fitted", param_hint="--poses"
+            )
+        if self.weights is not None:
+            raise typer.BadParameter("frames are fused by weights of their own; leave it out", param_hint="--weights")
 
     def infer(
         self, cloud: Cloud, scene: SceneOptions, read_seconds: float = 0.0, sizes: tuple[KnownSize, ...] = ()

@@ -33,7 +33,11 @@ pub fn fit_group(
     let mut most = f64::NEG_INFINITY;
     for start in group {
         let grown = grow_jointly(views.sights, start, group, &coarse);
-        let score = grown.as_ref().map(|(solution, present)| views.score(solution, *present, COARSE_STRIDE));
+        // Of bodies that explain the same readings the likelier one is told.
+        let weighed = |(solution, present): &(Solution, Present)| {
+            start.probability * views.score(solution, *present, COARSE_STRIDE)
+        };
+        let score = grown.as_ref().map(weighed);
         match score {
             Ok(score) if score > most => (best, most) = (grown, score),
             Err(_) if best.is_err() => best = grown,

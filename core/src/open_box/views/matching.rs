@@ -1,6 +1,7 @@
 use nalgebra::Isometry3;
 
 use super::super::grow::FoundBox;
+use super::super::judgement::{probability, Judgement};
 use super::super::surfaces::Present;
 use crate::fit::{layout, FittedBody, Rim};
 use crate::geometry::Vec3;
@@ -9,14 +10,22 @@ use crate::geometry::Vec3;
 pub struct Sighting {
     pub view: usize,
     pub found: FoundBox,
+    /// That it is a box, by its view alone.
+    pub probability: f64,
 }
 
 impl Sighting {
     /// `found` in the view's own level frame.
-    pub fn new(view: usize, level_from_own: &Isometry3<f64>, mut found: FoundBox) -> Self {
+    pub fn new(
+        view: usize,
+        level_from_own: &Isometry3<f64>,
+        mut found: FoundBox,
+        judgement: Option<&Judgement>,
+    ) -> Self {
+        let odds = judgement.map(|judgement| judgement.of_box(&found.features).0);
         let body = &mut found.solution.body;
         body.input_from_object = level_from_own * body.input_from_object;
-        Self { view, found }
+        Self { view, found, probability: odds.map_or(1.0, probability) }
     }
 
     pub fn body(&self) -> &FittedBody {
@@ -24,7 +33,7 @@ impl Sighting {
     }
 
     fn rank(&self) -> f64 {
-        self.found.score * self.found.probability
+        self.found.score * self.probability
     }
 
     /// The body, and what it has, with its sides numbered as those of another that stands where it does.

@@ -80,7 +80,7 @@ pub fn fuse<'a>(
     let mut sightings = Vec::new();
     for (view, of_view) in found.into_iter().enumerate() {
         let level_from_own = sights[view].input_from_level.inverse() * own[view].input_from_level;
-        sightings.extend(of_view.into_iter().map(|one| Sighting::new(view, &level_from_own, one)));
+        sightings.extend(of_view.into_iter().map(|one| Sighting::new(view, &level_from_own, one, judgement)));
     }
     let groups = groups(sightings);
     let (sights, warnings) = places::bettered(views, sights, &groups, settings).ok_or(0_usize)?;

@@ -24,7 +24,7 @@ pub fn bettered<'a>(
     groups: &[Vec<Sighting>],
     settings: &FitSettings,
 ) -> Option<(Vec<Sight<'a>>, Vec<String>)> {
-    let tells = |group: &&Vec<Sighting>| group.len() > 1 && group[0].found.probability > SURE;
+    let tells = |group: &&Vec<Sighting>| group.len() > 1 && group[0].probability > SURE;
     let Some(group) = groups.iter().find(tells) else { return Some((sights, Vec::new())) };
     let mut moved = vec![Isometry3::identity(); sights.len()];
     let mut sights = sights;
