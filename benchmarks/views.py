@@ -1,9 +1,10 @@
 r"""What more than one look brings: scenes seen from several places, answered frame by frame and fused.
 
     boxwright synth out/sets/looks --count 36 --seed 3001 --boxes 1 --views 3
-    .venv/bin/python -m benchmarks.views out/sets/looks -o docs/results/views.md
+    boxwright synth out/sets/looks_none --count 20 --seed 3002 --category none --views 3
+    .venv/bin/python -m benchmarks.views out/sets/looks out/sets/looks_none -o docs/results/views.md
 
-A row is a way to answer: from the first frame; from the frame whose answer came out best, which only the truth can tell;
+A row is a way to answer: from the first frame; from the frame whose answer came out best, which only the truth tells;
 from all frames fused, with the poses as they are and with poses of all but the first frame off by as much as a row says
 (Gaussian, each axis; seeded). Every row is held against the same flaps: those with 400 readings and more in all frames
 together.
@@ -18,7 +19,6 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -207,16 +207,19 @@ def _median_and_90(values: list[float]) -> str:
 def main() -> None:
     """Prints the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, metavar="SET", help="a set made with --views")
+    parser.add_argument("folders", nargs="+", type=Path, metavar="SET", help="a set made with --views")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE.md", help="write the page there too")
     options = parser.parse_args()
-    files = sorted(options.folder.glob("*.poses.toml"))
-    if not files:
-        parser.error(f"{options.folder} holds no NAME.poses.toml; boxwright synth --views 3 writes them")
-    scenes = [read_scene(path) for path in files]
+    scenes = []
+    for folder in options.folders:
+        files = sorted(folder.glob("*.poses.toml"))
+        if not files:
+            parser.error(f"{folder} holds no NAME.poses.toml; boxwright synth --views 3 writes them")
+        scenes += [read_scene(path) for path in files]
     text = table(measure(scenes))
     command = shlex.join(["python", "-m", "benchmarks.views", *sys.argv[1:]])
-    page = f"# Several looks at one scene\n\n`{command}`\n\n{len(scenes)} scenes. Errors are median / 90th percentile.\n\n{text}"
+    of = f"{len(scenes)} scenes, {sum(len(scene.frames) for scene in scenes)} frames"
+    page = f"# Several looks at one scene\n\n`{command}`\n\n{of}. Errors are median / 90th percentile.\n\n{text}"
     print(page)
     if options.output is not None:
         options.output.write_text(page, encoding="utf-8")

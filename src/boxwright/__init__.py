@@ -11,7 +11,8 @@ y down, z forward). Names are loaded when they are first used.
 - `Cloud`: points (N, 3) float32, metres; pixel (u, v) of an organized one is point v * width + u.
 - `read_cloud(path, ...) -> Cloud`: PCD, PLY, NPY, or a depth PNG with its intrinsics.
 - `infer(cloud, ...) -> Inferred`: the model, and the object and part of each point, (N,) int16, -1 for none.
-- `infer_frames(frames, ...) -> Fused`: one model of several frames, each a `PosedCloud(cloud, base_from_camera (4, 4))`.
+- `infer_frames(frames, ...) -> Fused`: one model of several `PosedCloud`s: each a cloud and base_from_camera (4, 4).
+- `read_poses(path)`: the files and poses of a TOML file that lists frames.
 - `KnownSize`, `read_sizes(path)`: outer sizes of boxes, metres; `infer(cloud, method="fitted", sizes=...)` uses them.
 - `segment(cloud, ...) -> Segmented`: the cloud's planar segments without meaning, as a record and as perceived.
 - `Model`: panels (4 corners, metres), hinges (origin, axis, position in radians: 0 closed, growing as a flap opens).

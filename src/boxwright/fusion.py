@@ -30,7 +30,7 @@ _OBJECT = msgspec.json.Decoder(Object)
 
 @dataclass(frozen=True)
 class Fused:
-    """The answer to several frames: the model in the first one's coordinates, and for each frame the labels of its points.
+    """The answer to several frames: the model in the first one's coordinates, and for each frame its points' labels.
 
     `shapes` are those of `Inferred`.
     """
@@ -63,11 +63,10 @@ def infer_frames(
 ) -> Fused:
     """Infers the open boxes of a scene that several frames show, taken from known places while nothing moved.
 
-    Each frame finds its boxes by the method "fitted"; where frames found the same one, a single body is fitted to the
-    readings of all, and every ray of every frame says whether its panels are there (docs/maths.md, "Several views"). The
-    model's coordinates are those of the first frame, and so are `up` and `roi`; `seen_from` starts from the last one's
-    camera. One frame gives what `infer` gives. The other arguments are those of `infer`; `source` names the file that
-    told the poses.
+    Each frame finds its boxes by the method "fitted"; one body is fitted to the readings of all frames for each, and
+    every ray of every frame says whether its panels are there (docs/maths.md, "Several views"). The model's coordinates
+    are those of the first frame, and so are `up` and `roi`; `seen_from` starts from the last one's camera. One frame
+    gives what `infer` gives. The other arguments are those of `infer`; `source` names the file that told the poses.
 
     Raises ValueError where there is no frame, where one has no image grid or viewpoint, and as `infer` does, naming the
     frame, counted from 1.

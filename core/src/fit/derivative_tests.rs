@@ -28,7 +28,7 @@ impl Draw {
         low + (high - low) * self.0.unit()
     }
 
-    fn vector(&mut self, size: f64) -> Vec3 {
+    pub fn vector(&mut self, size: f64) -> Vec3 {
         Vec3::new(self.between(-size, size), self.between(-size, size), self.between(-size, size))
     }
 

@@ -52,6 +52,8 @@ mod derivative_tests;
 #[cfg(test)]
 mod known_size_tests;
 #[cfg(test)]
+mod other_view_tests;
+#[cfg(test)]
 mod recovery_tests;
 #[cfg(test)]
 mod wall_lean_tests;

@@ -31,7 +31,7 @@ fn on_face(body: &FittedBody, role: Role, face: f64, [along, away]: [f64; 2]) ->
 }
 
 /// Exact readings of a panel: a grid on its face, and points on its four ends; `cut` takes the outer half of it away.
-fn readings(body: &FittedBody, role: Role, cut: bool) -> PartReadings {
+pub fn readings(body: &FittedBody, role: Role, cut: bool) -> PartReadings {
     let k = role.side();
     let reach = match role {
         Role::Base => [body.get(LENGTH) / 2.0, body.get(WIDTH) / 2.0],
@@ -63,7 +63,7 @@ fn readings(body: &FittedBody, role: Role, cut: bool) -> PartReadings {
     PartReadings { role, face, faces, face_information: 1.0, ends }
 }
 
-fn a_box(draw: &mut Draw) -> FittedBody {
+pub fn a_box(draw: &mut Draw) -> FittedBody {
     let mut body = draw.body();
     for k in 0..4 {
         body.numbers[bulge(k)] *= 0.3;
@@ -78,7 +78,7 @@ fn a_box(draw: &mut Draw) -> FittedBody {
     body
 }
 
-fn disturbed(draw: &mut Draw, body: &FittedBody) -> FittedBody {
+pub fn disturbed(draw: &mut Draw, body: &FittedBody) -> FittedBody {
     let mut step = super::body::Parameters::zeros();
     for place in 0..3 {
         (step[TURN + place], step[SHIFT + place]) = (draw.between(-0.03, 0.03), draw.between(-0.01, 0.01));
@@ -95,7 +95,7 @@ fn disturbed(draw: &mut Draw, body: &FittedBody) -> FittedBody {
     body.moved(&step)
 }
 
-fn problem(body: &FittedBody, parts: Vec<PartReadings>, start: &FittedBody) -> Problem {
+pub fn problem(body: &FittedBody, parts: Vec<PartReadings>, start: &FittedBody) -> Problem {
     let normal = body.input_from_object * Vec3::z();
     let support = Plane { normal, distance: normal.dot(&body.input_from_object.translation.vector) };
     let support = Support { plane: support, is_level: true };
@@ -109,7 +109,7 @@ fn problem(body: &FittedBody, parts: Vec<PartReadings>, start: &FittedBody) -> P
 }
 
 /// Of all hinges: the largest turn of the axis (rad), distance (m) and angle (rad).
-fn hinge_errors(found: &FittedBody, body: &FittedBody) -> [f64; 3] {
+pub fn hinge_errors(found: &FittedBody, body: &FittedBody) -> [f64; 3] {
     let mut worst = [0.0_f64; 3];
     for k in 0..4 {
         let Some((a, b)) = hinge(found, Role::Flap(k)).zip(hinge(body, Role::Flap(k))) else { continue };

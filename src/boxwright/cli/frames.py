@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def inputs_of(clouds: list[Path] | None, poses: Path | None, model: ModelOptions) -> list[Path]:
-    """The clouds, or the file that lists frames and their poses. Raises typer.BadParameter where there is not one of both."""
+    """The clouds, or the file that lists frames and poses. Raises typer.BadParameter where it is not one of both."""
     if poses is None:
         if not clouds:
             raise typer.BadParameter("give clouds, or --poses FILE.toml", param_hint="CLOUD...")

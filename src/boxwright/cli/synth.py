@@ -26,7 +26,10 @@ def synth(
     ] = None,
     start: Annotated[int, typer.Option(min=0, help="First frame of the sequence; to make a set longer.")] = 0,
     views: Annotated[
-        int, typer.Option(min=1, help="Places that each scene is seen from; with more than one NAME.poses.toml lists them.")
+        int,
+        typer.Option(
+            min=1, help="Places that each scene is seen from; NAME.poses.toml lists them where there are several."
+        ),
     ] = 1,
     clutter: Annotated[bool, typer.Option("--clutter/--no-clutter", help="Household things around and inside.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print a summary as JSON.")] = False,

@@ -126,8 +126,9 @@ def _motion(turn: NDArray[np.float64], position_m: NDArray[np.float64]) -> NDArr
 
 
 def _are_numbers(values: object, count: int) -> bool:
-    is_list = isinstance(values, list) and len(values) == count
-    return is_list and all(isinstance(value, int | float) and not isinstance(value, bool) for value in values)
+    if not isinstance(values, list) or len(values) != count:
+        return False
+    return all(isinstance(value, int | float) and not isinstance(value, bool) for value in values)
 
 
 def _refuse_twice(frame: PosedFile, before: list[PosedFile]) -> None:

@@ -21,7 +21,7 @@ TURN_DEG = (30.0, 110.0)
 """How far round the boxes the camera goes for another look, to either side."""
 ELEVATION_DEG = (30.0, 75.0)
 LEAST_SHARE = 0.5
-"""Another look shows at least this share of the pixels on boards that the first shows: nothing stands before the camera."""
+"""Another look shows this share at least of the pixels on boards that the first shows: nothing stands before it."""
 TRIES = 12
 
 
@@ -89,7 +89,8 @@ def _draw_place(rng: Rng, scene: Scene) -> Array:
     elevation = np.radians(rng.uniform(*ELEVATION_DEG))
     distance_m = float(np.linalg.norm(way)) * rng.uniform(0.85, 1.1)
     target = middle + np.append(rng.normal(0.0, 0.04, 2), 0.0)
-    return look_at(target, float(np.arctan2(way[1], way[0]) + turn), elevation, distance_m, np.radians(rng.normal(0, 4)))
+    azimuth = float(np.arctan2(way[1], way[0]) + turn)
+    return look_at(target, azimuth, elevation, distance_m, np.radians(rng.normal(0.0, 4.0)))
 
 
 def _middle(scene: Scene) -> Array:

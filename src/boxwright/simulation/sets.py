@@ -1,5 +1,6 @@
-"""Scene sets on disk: NAME.pcd, NAME.truth.json and NAME.labels.npz for each frame, NAME.poses.toml for each scene that was
-seen from several places (docs/formats.md)."""
+"""Scene sets on disk: NAME.pcd, NAME.truth.json and NAME.labels.npz for each frame (docs/formats.md).
+
+NAME.poses.toml lists the frames of a scene that was seen from several places."""
 
 from __future__ import annotations
 
