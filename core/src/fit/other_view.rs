@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, Isometry3, Matrix6, SVector, Translation3, UnitQuaternion, Vector6};
 
-use super::body::FittedBody;
+use super::body::{FittedBody, Parameters};
 use super::layout::{PARAMETER_COUNT, POSE_COUNT};
 use super::problem::{add_part, for_each_row, Linearized};
 use super::readings::PartReadings;
@@ -57,17 +57,20 @@ impl OtherView {
         for part in &self.parts {
             add_part(&mut own, part, body, Some(motion), cut);
         }
-        let offset = offset_of(motion);
-        let cost = 0.5 * offset.dot(&self.prior_gradient(motion));
+        let prior = self.prior_gradient(motion);
         let full = |i: usize, j: usize| own.curvature[(i.max(j), i.min(j))];
         let of_place = Matrix6::from_fn(full) + self.prior_curvature();
         let coupled = DMatrix::from_fn(PARAMETER_COUNT, POSE_COUNT, full);
         let Some(factor) = of_place.cholesky() else { return };
-        let left: Vector6<f64> = self.prior_gradient(motion) - own.gradient.fixed_rows::<POSE_COUNT>(0);
-        let solved = factor.solve(&coupled.transpose());
-        sums.cost += own.cost + cost;
-        sums.gradient += own.gradient + SVector::from_column_slice((&coupled * factor.solve(&left)).as_slice());
-        sums.curvature += own.curvature - coupled * solved;
+        // A motion of the readings is one of the body the other way.
+        let left: Vector6<f64> = prior - own.gradient.fixed_rows::<POSE_COUNT>(0);
+        let mut gradient = own.gradient + SVector::from_column_slice((&coupled * factor.solve(&left)).as_slice());
+        let mut curvature = DMatrix::from_fn(PARAMETER_COUNT, PARAMETER_COUNT, full);
+        curvature -= &coupled * factor.solve(&coupled.transpose());
+        turn_pose(&mut gradient, &mut curvature, motion);
+        sums.cost += own.cost + 0.5 * offset_of(motion).dot(&prior);
+        sums.gradient += gradient;
+        sums.curvature += curvature;
     }
 
     fn prior_curvature(&self) -> Matrix6<f64> {
@@ -78,6 +81,21 @@ impl OtherView {
     fn prior_gradient(&self, motion: &Isometry3<f64>) -> Vector6<f64> {
         self.prior_curvature() * offset_of(motion)
     }
+}
+
+/// From steps of the body that readings see where they were moved to, to steps before that motion.
+fn turn_pose(gradient: &mut Parameters, curvature: &mut DMatrix<f64>, motion: &Isometry3<f64>) {
+    let turn = motion.rotation.to_rotation_matrix().into_inner();
+    let mut adjoint = Matrix6::zeros();
+    adjoint.fixed_view_mut::<3, 3>(0, 0).copy_from(&turn);
+    adjoint.fixed_view_mut::<3, 3>(3, 3).copy_from(&turn);
+    adjoint.fixed_view_mut::<3, 3>(3, 0).copy_from(&(motion.translation.vector.cross_matrix() * turn));
+    let turned: Vector6<f64> = adjoint.transpose() * gradient.fixed_rows::<POSE_COUNT>(0);
+    gradient.fixed_rows_mut::<POSE_COUNT>(0).copy_from(&turned);
+    let columns = curvature.columns(0, POSE_COUNT) * adjoint;
+    curvature.columns_mut(0, POSE_COUNT).copy_from(&columns);
+    let rows = adjoint.transpose() * curvature.rows(0, POSE_COUNT);
+    curvature.rows_mut(0, POSE_COUNT).copy_from(&rows);
 }
 
 fn step_of(step: &Vector6<f64>) -> Isometry3<f64> {
