@@ -6,7 +6,7 @@ use super::surfaces::{Labels, Present};
 use crate::cloud::CloudView;
 use crate::fit::{
     priors, solve, FitSettings, FittedBody, NotFitted, OtherView, PartEnds, PartReadings, PartSegment, PlaceSigma,
-    Problem, Sensor, Solution, Support,
+    Problem, Role, Sensor, Solution, Support,
 };
 use crate::geometry::{Plane, Vec3};
 
@@ -40,7 +40,8 @@ pub fn refit_views(
     settings: &FitSettings,
 ) -> Result<Solution, NotFitted> {
     let body = &settled(body);
-    let mut parts = views.iter().map(|(sight, labels)| readings_of(sight, body, present, labels, settings));
+    let shared = |role: Role| shared_by(views, role, settings);
+    let mut parts = views.iter().map(|(sight, labels)| readings_of(sight, body, present, labels, shared));
     let first = parts.next().unwrap_or_default();
     let others = views
         .iter()
@@ -73,23 +74,35 @@ fn readings_of(
     body: &FittedBody,
     present: &Present,
     labels: &Labels,
-    settings: &FitSettings,
+    settings_of: impl Fn(Role) -> FitSettings,
 ) -> Vec<PartReadings> {
     let cloud =
         CloudView { points: &sight.points, width: sight.width, height: sight.height, viewpoint: Some(sight.eye) };
-    let used: Vec<_> = labels
-        .parts
-        .iter()
-        .filter(|(_, points)| labels.count(points) >= LEAST_READINGS && points.len() >= LEAST_SAMPLES)
-        .collect();
+    let used: Vec<_> = labels.parts.iter().filter(|(_, points)| tells(labels, points)).collect();
     let sample = used.iter().max_by_key(|(_, points)| points.len()).map_or(&[][..], |(_, points)| points);
-    let sensor = Sensor::new(&cloud, sample, settings);
+    let sensor = Sensor::new(&cloud, sample, &settings_of(Role::Base));
     let parts = used.iter().map(|(role, points)| {
         let sheet = Sheet::new(body, *role, &sight.eye);
         let (center, normal) = sheet.at(0.0, sheet.length_m / 2.0);
         let normal = if normal.dot(&(sight.eye - center)) < 0.0 { -normal } else { normal };
         let told = PartEnds::Told(ends(sight, body, present, *role));
-        PartReadings::new(&PartSegment { role: *role, normal, center, ends: told, points }, body, &sensor, settings)
+        let segment = PartSegment { role: *role, normal, center, ends: told, points };
+        PartReadings::new(&segment, body, &sensor, &settings_of(*role))
     });
     parts.collect()
+}
+
+fn tells(labels: &Labels, points: &[u32]) -> bool {
+    labels.count(points) >= LEAST_READINGS && points.len() >= LEAST_SAMPLES
+}
+
+/// Boards that are not quite flat, and ends that are not quite straight, are so in every view: what a face or an end says at most
+/// is shared by the views that see it.
+fn shared_by(views: &[(&Sight, &Labels)], role: Role, settings: &FitSettings) -> FitSettings {
+    let count = views.iter().filter(|(_, labels)| tells(labels, labels.of(role))).count().max(1) as f64;
+    FitSettings {
+        most_face_information: settings.most_face_information / count,
+        most_end_information: settings.most_end_information / count,
+        ..*settings
+    }
 }
