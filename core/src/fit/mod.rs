@@ -38,7 +38,7 @@ pub(crate) use forward::flap_end;
 pub(crate) use known_size::{best_match, best_match_within, share_of_score, with_known_size};
 pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
-pub(crate) use priors::priors;
+pub(crate) use priors::{kept_length, priors};
 pub(crate) use problem::{Problem, Support};
 pub(crate) use readings::{PartEnds, PartReadings, PartSegment};
 pub(crate) use sensor::Sensor;

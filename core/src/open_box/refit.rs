@@ -1,11 +1,11 @@
-use super::ends::ends;
+use super::ends::{ends, FAR};
 use super::evidence::Sheet;
 use super::settle::{lowest_m, settled, LEVEL_COS};
 use super::sight::Sight;
 use super::surfaces::{Labels, Present};
 use crate::cloud::CloudView;
 use crate::fit::{
-    priors, solve, FitSettings, FittedBody, NotFitted, PartEnds, PartReadings, PartSegment, Problem, Sensor, Solution,
+    kept_length, priors, solve, FitSettings, FittedBody, NotFitted, PartEnds, PartReadings, PartSegment, Problem, Sensor, Solution,
     Support,
 };
 use crate::geometry::{Plane, Vec3};
@@ -39,16 +39,19 @@ pub fn refit(
         let sheet = Sheet::new(body, *role, &sight.eye);
         let (center, normal) = sheet.at(0.0, sheet.length_m / 2.0);
         let normal = if normal.dot(&(sight.eye - center)) < 0.0 { -normal } else { normal };
-        let told = PartEnds::Told(ends(sight, body, present, *role));
-        PartReadings::new(&PartSegment { role: *role, normal, center, ends: told, points }, body, &sensor, settings)
+        let ends = ends(sight, body, present, *role);
+        let segment = PartSegment { role: *role, normal, center, ends: PartEnds::Told(ends), points };
+        let kept = if ends[FAR].is_none() { kept_length(body, *role) } else { None };
+        (PartReadings::new(&segment, body, &sensor, settings), kept)
     });
+    let (parts, kept): (Vec<_>, Vec<_>) = parts.unzip();
     let up = (body.input_from_object.rotation * Vec3::z()).z;
     let stands = lowest_m(body).abs() < settings.stands_on_support_m;
     let plane = Plane { normal: Vec3::z(), distance: 0.0 };
     let problem = Problem {
-        parts: parts.collect(),
+        parts,
         support: stands.then_some(Support { plane, is_level: up > LEVEL_COS }),
-        priors: priors(body),
+        priors: priors(body).into_iter().chain(kept.into_iter().flatten()).collect(),
         settings: *settings,
     };
     solve(&problem, body)
