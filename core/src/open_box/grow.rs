@@ -41,7 +41,7 @@ const COARSE_STRIDE: usize = 3;
 
 /// From a shell to a box fitted to some of its readings.
 pub fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox> {
-    let settings = FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings };
+    let settings = competing(settings);
     let (body, present) = with_flaps(&body_of(&shell.proposal), &shell.flaps);
     let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
@@ -67,8 +67,13 @@ pub fn finish(
     let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);
-    let solution = refit(sight, &body, &present, &labels, settings).ok()?;
-    sound(&solution.body)?;
+    let fitted = refit(sight, &body, &present, &labels, settings).ok().filter(|all| sound(&all.body).is_some());
+    // Where all its readings lead to no body, fewer do, as they did before.
+    let solution = fitted.or_else(|| {
+        let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
+        drop_unsure(sight, &body, &mut labels);
+        refit(sight, &body, &present, &labels, &competing(settings)).ok().filter(|few| sound(&few.body).is_some())
+    })?;
     let (solution, present) = look_again(sight, solution, present, settings);
     let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
     sound(&solution.body)?;
@@ -80,6 +85,11 @@ pub fn finish(
     };
     out.part_features = out.evidence.iter().filter_map(of).collect();
     Some(out)
+}
+
+/// Of boxes that still compete.
+fn competing(settings: &FitSettings) -> FitSettings {
+    FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }
 }
 
 /// A body that may be a box's.
