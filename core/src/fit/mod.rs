@@ -29,7 +29,7 @@ pub use object::fit_object;
 pub use refusal::NotFitted;
 pub use rim::Rim;
 pub use roles::Role;
-pub use settings::FitSettings;
+pub use settings::{FitSettings, SigmaScales};
 pub use size_warnings::size_warnings;
 
 pub(crate) use answer::fill;

@@ -81,3 +81,24 @@ pub fn priors(start: &FittedBody) -> Vec<Prior> {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Isometry3;
+
+    #[test]
+    fn only_what_hangs_keeps_a_length_and_that_of_its_start() {
+        let mut start = FittedBody { input_from_object: Isometry3::identity(), numbers: Parameters::zeros() };
+        start.numbers[flap(2) + FLAP_LENGTH] = 0.15;
+        start.numbers[tuck(2) + TUCK_LENGTH] = 0.04;
+        for role in [Role::Base, Role::Side(2)] {
+            assert!(kept_length(&start, role).is_none());
+        }
+        for role in [Role::Flap(2), Role::Tuck(2)] {
+            let kept = kept_length(&start, role).unwrap();
+            assert!(kept.residual(&start.numbers).0.abs() < 1e-12);
+            assert!((kept.residual(&Parameters::zeros()).0 + start.get(kept.terms[0].0) / KEPT_LENGTH_M).abs() < 1e-12);
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! From a proposal to a fitted box.
 
+use super::crease::with_creases;
 use super::evidence::{Evidence, Sheet};
 use super::features::{self, Features};
 use super::hanging::{scan_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
@@ -66,6 +67,14 @@ pub fn finish(
     let (body, present) = (found.solution.body.turned(turn), found.present.turned(turn));
     let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
+    let creased = with_creases(sight, &body, &present, &labels);
+    let (body, present) = match creased {
+        Some((body, present)) => {
+            labels = label(sight, &body, &present, FINE_M, 1);
+            (body, present)
+        }
+        None => (body, present),
+    };
     drop_unsure(sight, &body, &mut labels);
     let fitted = refit(sight, &body, &present, &labels, settings).ok().filter(|all| sound(&all.body).is_some());
     // Where all its readings lead to no body, fewer do, as they did before.
@@ -75,7 +84,7 @@ pub fn finish(
         refit(sight, &body, &present, &labels, &competing(settings)).ok().filter(|few| sound(&few.body).is_some())
     })?;
     let (solution, present) = look_again(sight, solution, present, settings);
-    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
+    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale.dimension);
     sound(&solution.body)?;
     let mut out = FoundBox { size, ..weigh(sight, solution, present, 1) };
     out.features = features::of_box(sight, owners, &out);
