@@ -122,16 +122,17 @@ weights-fitted:
 	$(BIN)/boxwright synth $(SETS)/judge --count 360 --seed 503
 	$(BIN)/boxwright synth $(SETS)/judge_none --count 160 --seed 504 --category none
 	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none --method fitted -o $(WEIGHTS)/fitted/judgement.json
-	$(BIN)/python -m benchmarks.kinds $(SETS)/train $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
+	$(BIN)/python -m benchmarks.kinds $(SETS)/judge $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, and 200 and 60 without an open box)
-	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 2001
-	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 2002 --category none
+	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 3001
+	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 3002 --category none
 	for method in fitted exact paper; do \
 		$(BIN)/boxwright evaluate $(SETS)/boxes --method $$method -o out/boxes_$$method.json; \
 		$(BIN)/boxwright evaluate $(SETS)/no_boxes --method $$method -o out/no_boxes_$$method.json; \
 	done
 	$(BIN)/python -m benchmarks.gallery $(SETS)/boxes out/boxes_fitted.json -o docs/results/gallery
+	$(BIN)/python -m benchmarks.coverage $(SETS)/boxes -o docs/results/coverage.md
 	$(BIN)/boxwright synth $(SETS)/test --count 120 --seed 1000
 	$(BIN)/boxwright synth $(SETS)/test_none --count 60 --seed 1003 --category none
 	$(BIN)/boxwright evaluate $(SETS)/test --method paper --planes grid -o out/test.json

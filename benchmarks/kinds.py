@@ -1,6 +1,6 @@
 r"""Which template a fitted box is of: learns the weights that tell it, or reports how often it is told right.
 
-    .venv/bin/python -m benchmarks.kinds out/sets/train out/sets/totes --learn \
+    .venv/bin/python -m benchmarks.kinds out/sets/judge out/sets/totes --learn \
         src/boxwright/models/weights/fitted/kinds.json
     .venv/bin/python -m benchmarks.kinds out/sets/test out/sets/totes_test -o docs/results/kinds.md
 

@@ -6,7 +6,7 @@ use super::body::{FittedBody, Parameters};
 use super::forward::{corners, hinge, FittedHinge};
 use super::layout::{flap_names, shape_names, tuck_names, HEIGHT, LENGTH, PARAMETER_COUNT, RACK, THICKNESS, WIDTH};
 use super::roles::Role;
-use super::settings::FitSettings;
+use super::settings::{FitSettings, SigmaScales};
 use super::solve::Solution;
 use crate::body::{JointAnswer, JointSigma, ObjectAnswer, ParameterAnswer, PoseAnswer};
 use crate::model::Template;
@@ -63,10 +63,22 @@ fn parameters(
         }
     }
     let answer = |place: usize| {
-        let sigma = solution.covariance[(place, place)].sqrt() * settings.seen_scale;
+        let scale = if is_bounded(place, roles, seen) { settings.seen_scale } else { settings.unseen_scale };
+        let sigma = solution.covariance[(place, place)].sqrt() * scale.dimension;
         ParameterAnswer { value: solution.body.get(place), sigma: Some(sigma) }
     };
     names.into_iter().map(|(place, name)| (name, answer(place))).collect()
+}
+
+/// Whether what bounds it was seen: both walls that a length lies between, any wall for the height.
+fn is_bounded(place: usize, roles: &[(usize, Role)], seen: &[bool]) -> bool {
+    let wall = |k: usize| roles.iter().any(|&(part, role)| role == Role::Side(k) && seen[part]);
+    match place {
+        LENGTH => wall(1) && wall(3),
+        WIDTH => wall(0) && wall(2),
+        HEIGHT => (0..4).any(wall),
+        _ => true,
+    }
 }
 
 fn joints(
@@ -98,7 +110,7 @@ fn joints(
 }
 
 /// The covariance carried over to a hinge (eq. 83): C' = D C D^T.
-fn hinge_sigma(solution: &Solution, role: Role, at: &FittedHinge, scale: f64) -> JointSigma {
+fn hinge_sigma(solution: &Solution, role: Role, at: &FittedHinge, scale: SigmaScales) -> JointSigma {
     let moved = |place: usize, step: f64| {
         let mut by = Parameters::zeros();
         by[place] = step;
@@ -115,8 +127,28 @@ fn hinge_sigma(solution: &Solution, role: Role, at: &FittedHinge, scale: f64) ->
         by[(6, place)] = (ahead.position_rad - behind.position_rad) / (2.0 * STEP);
     }
     let spread = &by * &solution.covariance * by.transpose();
-    let sigma = |i: usize| spread[(i, i)].max(0.0).sqrt() * scale;
+    let sigma = |i: usize, scale: f64| spread[(i, i)].max(0.0).sqrt() * scale;
     // Of the axis the larger of the two ways it can lean would do; the root of both is on the safe side.
-    let axis = (spread[(3, 3)] + spread[(4, 4)] + spread[(5, 5)]).max(0.0).sqrt() * scale;
-    JointSigma { position: sigma(6), origin: [sigma(0), sigma(1), sigma(2)], axis }
+    let axis = (spread[(3, 3)] + spread[(4, 4)] + spread[(5, 5)]).max(0.0).sqrt() * scale.axis;
+    JointSigma { position: sigma(6, scale.position), origin: [0, 1, 2].map(|i| sigma(i, scale.origin)), axis }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_length_is_bounded_by_the_walls_across_it() {
+        let roles: Vec<(usize, Role)> = (0..4).map(|k| (k, Role::Side(k))).collect();
+        let cases = [
+            ([true, false, true, false], [false, true, true]),
+            ([false, true, false, true], [true, false, true]),
+            ([true, true, false, false], [false, false, true]),
+            ([false; 4], [false; 3]),
+        ];
+        for (seen, expected) in cases {
+            assert_eq!([LENGTH, WIDTH, HEIGHT].map(|place| is_bounded(place, &roles, &seen)), expected, "{seen:?}");
+        }
+        assert!(is_bounded(THICKNESS, &roles, &[false; 4]));
+    }
 }

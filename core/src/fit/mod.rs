@@ -30,7 +30,7 @@ pub use object::fit_object;
 pub use refusal::NotFitted;
 pub use rim::Rim;
 pub use roles::Role;
-pub use settings::FitSettings;
+pub use settings::{FitSettings, SigmaScales};
 pub use size_warnings::size_warnings;
 
 pub(crate) use answer::fill;
@@ -40,7 +40,7 @@ pub(crate) use known_size::{best_match, best_match_within, share_of_score, with_
 pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
 pub(crate) use other_view::{OtherView, PlaceSigma};
-pub(crate) use priors::priors;
+pub(crate) use priors::{kept_length, priors, Prior};
 pub(crate) use problem::{Problem, Support};
 pub(crate) use readings::{PartEnds, PartReadings, PartSegment};
 pub(crate) use sensor::Sensor;

@@ -52,7 +52,7 @@ pub fn fit_object(
             segments.iter().map(|s| PartSegment { role: s.role.turned(turn), ..*s }).collect();
         fit(&segments, &solution.body.turned(turn), scene, &sensor, settings)?
     };
-    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
+    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale.dimension);
     check(&solution.body)?;
 
     let mut out = object.clone();

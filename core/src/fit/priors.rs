@@ -2,6 +2,7 @@
 
 use super::body::{edge_place, FittedBody, Parameters};
 use super::layout::*;
+use super::roles::Role;
 
 /// `sum of factor * number` is `mean` give or take `sigma`.
 #[derive(Debug, Clone, Copy)]
@@ -28,6 +29,8 @@ const TUCK_LESS_THAN_FLAP_M: (f64, f64) = (-0.01, 0.03);
 /// About the start, for sizes and angles: so weak that any reading outweighs it.
 const SIZE_SIGMA_M: f64 = 0.2;
 const ANGLE_SIGMA_RAD: f64 = 1.0;
+/// How well a scan knows how far a surface reaches that goes on.
+const KEPT_LENGTH_M: f64 = 0.02;
 
 impl Prior {
     fn one(place: usize, (mean, sigma): (f64, f64)) -> Self {
@@ -43,6 +46,17 @@ impl Prior {
         let value: f64 = self.terms.iter().map(|&(place, factor)| factor * numbers[place]).sum();
         ((value - self.mean) / self.sigma, self.terms.map(|(place, factor)| (place, factor / self.sigma)))
     }
+}
+
+/// A flap or tuck flap beyond whose end its surface goes on, or which a tuck flap continues, has no end that the readings show:
+/// it keeps the length of its start.
+pub fn kept_length(start: &FittedBody, role: Role) -> Option<Prior> {
+    let place = match role {
+        Role::Flap(k) => flap(k) + FLAP_LENGTH,
+        Role::Tuck(k) => tuck(k) + TUCK_LENGTH,
+        Role::Base | Role::Side(_) => return None,
+    };
+    Some(Prior::one(place, (start.get(place), KEPT_LENGTH_M)))
 }
 
 /// All priors of a box that starts as `start`.
@@ -66,4 +80,25 @@ pub fn priors(start: &FittedBody) -> Vec<Prior> {
         out.push(Prior::difference(tuck + TUCK_WIDTH, flap + FLAP_WIDTH, TUCK_LESS_THAN_FLAP_M));
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Isometry3;
+
+    #[test]
+    fn only_what_hangs_keeps_a_length_and_that_of_its_start() {
+        let mut start = FittedBody { input_from_object: Isometry3::identity(), numbers: Parameters::zeros() };
+        start.numbers[flap(2) + FLAP_LENGTH] = 0.15;
+        start.numbers[tuck(2) + TUCK_LENGTH] = 0.04;
+        for role in [Role::Base, Role::Side(2)] {
+            assert!(kept_length(&start, role).is_none());
+        }
+        for role in [Role::Flap(2), Role::Tuck(2)] {
+            let kept = kept_length(&start, role).unwrap();
+            assert!(kept.residual(&start.numbers).0.abs() < 1e-12);
+            assert!((kept.residual(&Parameters::zeros()).0 + start.get(kept.terms[0].0) / KEPT_LENGTH_M).abs() < 1e-12);
+        }
+    }
 }

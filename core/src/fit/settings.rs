@@ -33,9 +33,20 @@ pub struct FitSettings {
     pub max_steps: usize,
     /// A step that would better the sum of squares by less is the last.
     pub least_gain: f64,
-    /// Standard deviations are the curvature's times this: of what was seen, and of what follows from it.
-    pub seen_scale: f64,
-    pub unseen_scale: f64,
+    /// Standard deviations are the curvature's times these: of what was seen, and of what follows from it.
+    pub seen_scale: SigmaScales,
+    pub unseen_scale: SigmaScales,
+}
+
+/// By how much more than the curvature says the fit errs, by what is told (`benchmarks/coverage.py` learns them).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SigmaScales {
+    /// Of all sizes and shapes.
+    pub dimension: f64,
+    /// Of a hinge: its origin, its axis, its position.
+    pub origin: f64,
+    pub axis: f64,
+    pub position: f64,
 }
 
 impl Default for FitSettings {
@@ -61,8 +72,8 @@ impl Default for FitSettings {
             last_cut: 3.0,
             max_steps: 60,
             least_gain: 1e-4,
-            seen_scale: 1.0,
-            unseen_scale: 1.0,
+            seen_scale: SigmaScales { dimension: 1.0, origin: 1.0, axis: 1.0, position: 1.0 },
+            unseen_scale: SigmaScales { dimension: 1.0, origin: 1.0, axis: 1.0, position: 1.0 },
         }
     }
 }

@@ -12,7 +12,7 @@ const MODEL_M: f64 = 0.005;
 
 /// Ends as the fit counts them: 0 where its side starts, 1 where that ends, 2 at its hinge or rim, 3 across from it.
 const NEAR: usize = 2;
-const FAR: usize = 3;
+pub const FAR: usize = 3;
 
 /// Whether a part's readings tell where it ends there: the fold of a flap is where planes meet.
 fn is_told(present: &Present, role: Role, end: usize) -> bool {

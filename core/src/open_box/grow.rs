@@ -1,5 +1,6 @@
 //! From a proposal to a fitted box.
 
+use super::crease::with_creases;
 use super::evidence::{Evidence, Sheet};
 use super::features::{self, Features};
 use super::hanging::{scan_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
@@ -42,7 +43,7 @@ const COARSE_STRIDE: usize = 3;
 
 /// From a shell to a box fitted to some of its readings.
 pub fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox> {
-    let settings = FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings };
+    let settings = competing(settings);
     let (body, present) = with_flaps(&body_of(&shell.proposal), &shell.flaps);
     let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
@@ -70,11 +71,24 @@ pub fn finish(
     let (body, present) = (found.solution.body.turned(turn), found.present.turned(turn));
     let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
+    let creased = with_creases(sight, &body, &present, &labels);
+    let (body, present) = match creased {
+        Some((body, present)) => {
+            labels = label(sight, &body, &present, FINE_M, 1);
+            (body, present)
+        }
+        None => (body, present),
+    };
     drop_unsure(sight, &body, &mut labels);
-    let solution = refit(sight, &body, &present, &labels, settings)?;
-    sound(&solution.body)?;
+    let fitted = refit(sight, &body, &present, &labels, settings).and_then(sound_solution);
+    // Where all its readings lead to no body, fewer do, as they did before.
+    let solution = fitted.or_else(|_| {
+        let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
+        drop_unsure(sight, &body, &mut labels);
+        refit(sight, &body, &present, &labels, &competing(settings)).and_then(sound_solution)
+    })?;
     let (solution, present) = look_again(sight, solution, present, settings);
-    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
+    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale.dimension);
     sound(&solution.body)?;
     let mut out = FoundBox { size, ..weigh(sight, solution, present, 1) };
     out.features = features::of_box(sight, owners, &out);
@@ -86,6 +100,11 @@ pub fn finish(
     Ok(out)
 }
 
+/// Of boxes that still compete.
+fn competing(settings: &FitSettings) -> FitSettings {
+    FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }
+}
+
 /// Refuses a body that no box has.
 pub fn sound(body: &FittedBody) -> Result<(), NotFitted> {
     check(body)?;
@@ -93,6 +112,11 @@ pub fn sound(body: &FittedBody) -> Result<(), NotFitted> {
         return Err(NotFitted::Sunk);
     }
     Ok(())
+}
+
+fn sound_solution(solution: Solution) -> Result<Solution, NotFitted> {
+    sound(&solution.body)?;
+    Ok(solution)
 }
 
 /// A flap that was missed, or fitted where little lies, is taken from a scan of its edge where now more is met.

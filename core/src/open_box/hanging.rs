@@ -75,7 +75,7 @@ pub fn scan_tucks(sight: &Sight, body: &FittedBody, present: &Present, model_m: 
     })
 }
 
-const TUCK_LESS_THAN_FLAP_M: f64 = 0.01;
+pub const TUCK_LESS_THAN_FLAP_M: f64 = 0.01;
 /// A tuck flap is at most so long, and this share of its flap.
 const MOST_TUCK_M: f64 = 0.12;
 const TUCK_SHARE: f64 = 0.45;

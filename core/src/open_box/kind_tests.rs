@@ -14,6 +14,7 @@ const SHAPE: Shape = Shape {
     dimensions_m: [0.4, 0.3, 0.2],
     thickness_m: 0.004,
     flaps_m: [Some(0.15), None, Some(0.06), None],
+    flaps_rad: [2.0, 9.0, 3.5, -9.0],
     has_tuck: [false, false, true, false],
 };
 
@@ -33,13 +34,14 @@ fn any_weights() -> Kinds {
 
 #[test]
 fn features_are_what_their_names_say() {
-    let expected = [1.0, 0.0, (0.12_f64.sqrt() / 0.3).ln(), (4.0 / 3.0_f64).ln(), 4.0, 2.0, 0.0, 0.5, 0.2, 1.0];
+    let expected =
+        [1.0, 0.0, (0.12_f64.sqrt() / 0.3).ln(), (4.0 / 3.0_f64).ln(), 4.0, 2.0, 0.0, 0.5, 0.2, 1.0, 3.5_f64.ln(), 1.5];
     let features = SHAPE.features();
     for (name, (value, wanted)) in SHAPE_FEATURES.iter().zip(features.iter().zip(expected)) {
         assert!((value - wanted).abs() < 1e-12, "{name}: {value}, not {wanted}");
     }
     let bare = Shape { flaps_m: [None; 4], has_tuck: [false; 4], ..SHAPE }.features();
-    assert_eq!(bare[5..], [0.0, 1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(bare[5..], [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
 }
 
 #[test]
@@ -47,6 +49,7 @@ fn a_quarter_turn_is_the_same_box() {
     let [length, width, height] = SHAPE.dimensions_m;
     let mut turned = Shape { dimensions_m: [width, length, height], ..SHAPE };
     turned.flaps_m.rotate_left(1);
+    turned.flaps_rad.rotate_left(1);
     turned.has_tuck.rotate_left(1);
     assert_eq!(turned.features(), SHAPE.features());
 }

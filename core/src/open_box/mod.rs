@@ -3,6 +3,7 @@
 
 mod answer;
 mod choose;
+mod crease;
 mod ends;
 mod evidence;
 mod features;

@@ -1,12 +1,12 @@
-use super::ends::ends;
+use super::ends::{ends, FAR};
 use super::evidence::Sheet;
 use super::settle::{lowest_m, settled, LEVEL_COS};
 use super::sight::Sight;
-use super::surfaces::{Labels, Present};
+use super::surfaces::{roles, Labels, Present};
 use crate::cloud::CloudView;
 use crate::fit::{
-    priors, solve, FitSettings, FittedBody, NotFitted, OtherView, PartEnds, PartReadings, PartSegment, PlaceSigma,
-    Problem, Role, Sensor, Solution, Support,
+    kept_length, priors, solve, FitSettings, FittedBody, NotFitted, OtherView, PartEnds, PartReadings, PartSegment,
+    PlaceSigma, Prior, Problem, Role, Sensor, Solution, Support,
 };
 use crate::geometry::{Plane, Vec3};
 
@@ -48,6 +48,7 @@ pub fn refit_views(
         .skip(1)
         .zip(parts)
         .map(|((sight, _), parts)| OtherView { parts, sigma: sigma(sight, body, settings) });
+    let kept = kept_lengths(views, body, present);
     let up = (body.input_from_object.rotation * Vec3::z()).z;
     let stands = lowest_m(body).abs() < settings.stands_on_support_m;
     let plane = Plane { normal: Vec3::z(), distance: 0.0 };
@@ -55,7 +56,7 @@ pub fn refit_views(
         parts: first,
         others: others.collect(),
         support: stands.then_some(Support { plane, is_level: up > LEVEL_COS }),
-        priors: priors(body),
+        priors: priors(body).into_iter().chain(kept).collect(),
         settings: *settings,
     };
     solve(&problem, body)
@@ -90,6 +91,14 @@ fn readings_of(
         PartReadings::new(&segment, body, &sensor, &settings_of(*role))
     });
     parts.collect()
+}
+
+/// Keeps the length of each part whose far end no view that sees it shows.
+fn kept_lengths(views: &[(&Sight, &Labels)], body: &FittedBody, present: &Present) -> Vec<Prior> {
+    let used = |role: Role| views.iter().filter(move |(_, labels)| tells(labels, labels.of(role)));
+    let is_open = |role: Role| used(role).all(|(sight, _)| ends(sight, body, present, role)[FAR].is_none());
+    let seen = roles(present).into_iter().filter(|role| used(*role).count() > 0);
+    seen.filter(|role| is_open(*role)).filter_map(|role| kept_length(body, role)).collect()
 }
 
 fn tells(labels: &Labels, points: &[u32]) -> bool {

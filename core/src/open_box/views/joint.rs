@@ -46,7 +46,7 @@ pub fn fit_group(
     }
     let (solution, present) = best?;
     let (solution, present) = finish(views, solution, present, group, settings)?;
-    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale);
+    let (solution, size) = with_known_size(solution, sizes, settings.seen_scale.dimension);
     sound(&solution.body)?;
     Ok(views.gather(&solution, present, size))
 }
