@@ -72,8 +72,8 @@ impl Default for FitSettings {
             last_cut: 3.0,
             max_steps: 60,
             least_gain: 1e-4,
-            seen_scale: SigmaScales { dimension: 1.0, origin: 1.0, axis: 1.0, position: 1.0 },
-            unseen_scale: SigmaScales { dimension: 1.0, origin: 1.0, axis: 1.0, position: 1.0 },
+            seen_scale: SigmaScales { dimension: 2.57, origin: 2.39, axis: 1.35, position: 1.68 },
+            unseen_scale: SigmaScales { dimension: 3.3, origin: 2.29, axis: 1.25, position: 1.65 },
         }
     }
 }
