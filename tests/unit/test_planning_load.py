@@ -37,7 +37,7 @@ def test_a_flap_that_would_move_the_box_is_told_and_physics_agrees() -> None:
             if name in regardless.order:
                 assert not careless.flaps[name].held, f"problem {number}: {name}"
                 counted += 1
-    assert counted == 3
+    assert counted == 4
 
 
 def test_a_heavy_box_bears_what_a_light_one_does_not() -> None:
@@ -76,7 +76,7 @@ def test_what_creases_give_back_is_pushed_beyond_closed() -> None:
         # It comes back by no more than the class says, and by less where its weight holds it down.
         assert 0.0 <= rest_rad - first.hinge_angle_rad[-1] <= figures.return_rad + 1e-9
         counted += 1
-    assert counted == 3
+    assert counted == 4
 
 
 def test_figures_that_are_none_are_refused() -> None:
