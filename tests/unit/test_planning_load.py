@@ -76,7 +76,7 @@ def test_what_creases_give_back_is_pushed_beyond_closed() -> None:
         # It comes back by no more than the class says, and by less where its weight holds it down.
         assert 0.0 <= rest_rad - first.hinge_angle_rad[-1] <= figures.return_rad + 1e-9
         counted += 1
-    assert counted == 4
+    assert counted == 3
 
 
 def test_figures_that_are_none_are_refused() -> None:
