@@ -11,7 +11,7 @@ import argparse
 from pathlib import Path
 
 from benchmarks.closing.measure import limits, measure
-from benchmarks.closing.problems import draw_problem
+from benchmarks.closing.problems import REPORT_SEED, draw_problem
 from benchmarks.closing.record import (
     CREASES,
     WAYS,
@@ -47,7 +47,7 @@ def main() -> None:
 def record_of(folder: Path, number: int, way: str, crease: str) -> Record:
     """That of the folder, measured first where it is not there."""
     path = record_path(folder, number, way, crease)
-    return kept(path, Record, lambda: measure(draw_problem(number), way, crease))
+    return kept(path, Record, lambda: measure(draw_problem(number, REPORT_SEED), way, crease))
 
 
 def limits_of(folder: Path, number: int) -> Limits:
@@ -56,7 +56,7 @@ def limits_of(folder: Path, number: int) -> Limits:
     def made() -> Limits:
         found = read_records(folder, [number], ("layered", "paper"), CREASES)
         planned = sorted({flap.name for record in found for flap in record.flaps if flap.status == "planned"})
-        return limits(draw_problem(number), planned)
+        return limits(draw_problem(number, REPORT_SEED), planned)
 
     return kept(limits_path(folder, number), Limits, made)
 

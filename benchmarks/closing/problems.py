@@ -22,6 +22,9 @@ from boxwright.types import Inference, Joint, Model, Object, Part, Pose, Seconds
 Array = NDArray[np.float64]
 
 SEED = 2011
+"""Of the set on which the planner was tuned; tests take theirs from it."""
+REPORT_SEED = 1126
+"""Of the set that the tables are about: drawn after the planner was tuned."""
 COUNT = 306
 ANGLES_DEG = (40.0, 235.0)
 CENTRE_M = (0.35, 0.75)

@@ -34,6 +34,7 @@ class Record(msgspec.Struct, frozen=True):
     crease: str
     flaps: tuple[FlapRecord, ...]
     planning_s: float
+    """Of the processor: other work on the machine does not count."""
     failure: str | None
     """Why the run proves nothing."""
     most_force_n: float

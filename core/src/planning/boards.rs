@@ -96,6 +96,16 @@ pub fn overlap_closed(a: &Flap, b: &Flap) -> bool {
     !parted(&p, &q) && !parted(&q, &p)
 }
 
+/// The angle at which a flap comes to lie on the corners of another that stands at an angle, `over_m` above its middle; the ends
+/// of a neighbour give way.
+pub fn propped_rad(flap: &Flap, below: &Flap, below_rad: f64, over_m: f64) -> f64 {
+    let gives_m = if are_opposite(flap, below) { 0.0 } else { GIVING_END_M };
+    let (frame, closed) = (below.frame(below_rad), flap.frame(0.0));
+    let corners =
+        shrunk(&below.corners(below_rad), gives_m).map(|corner| closed.coordinates(&(corner + frame.outward * over_m)));
+    corners.iter().map(|corner| corner.z.atan2(corner.y.max(1e-6))).fold(0.0, f64::max)
+}
+
 /// Does an edge of one convex quadrilateral have all of the other on its outer side?
 fn parted(p: &[[f64; 2]; 4], q: &[[f64; 2]; 4]) -> bool {
     let side = |k: usize, r: &[f64; 2]| {
@@ -201,6 +211,20 @@ mod tests {
             true
         });
         assert_eq!(counted.count(), 12);
+    }
+
+    #[test]
+    fn flaps_prop_up_what_overlaps_them_near_its_hinge() {
+        // 0.27 m over a box of 0.3 m: the edge is 0.03 m from the hinge across; of one of 0.1 m, 0.2 m.
+        let counted = [(0.27, 0.03), (0.1, 0.2f64)].map(|(length_m, left_m)| {
+            let carton = carton(0.004, [length_m; 4]);
+            let propped = |below_rad, over_m| propped_rad(&carton.flaps[0], &carton.flaps[2], below_rad, over_m);
+            assert!((propped(0.0, 0.004) - (0.004f64 / left_m).atan()).abs() < 1e-9, "{length_m}");
+            assert!(propped(0.1, 0.004) > propped(0.0, 0.004) && propped(0.0, 0.0) < 1e-9);
+            // Of a neighbour that lies flat, nothing.
+            assert!(propped_rad(&carton.flaps[0], &carton.flaps[1], 0.0, 0.0) < 1e-9);
+        });
+        assert_eq!(counted.len(), 2);
     }
 
     #[test]

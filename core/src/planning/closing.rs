@@ -1,11 +1,12 @@
 //! The whole of it: which flaps, in which order, and the ways between them.
 
-use super::boards::{are_opposite, met, overlap_closed, stopped_by_rims};
+use super::boards::met;
 use super::contact::Contacts;
 use super::flap::Standing;
 use super::guard::{Guard, Moment};
 use super::load::Load;
 use super::order;
+use super::orientations::OrientationGrid;
 use super::planes::PlanesSearch;
 use super::problem::BoxProblem;
 use super::push::{closed_finger, PushMotion, Pusher};
@@ -163,43 +164,6 @@ impl<G: Guard> Closer<'_, G> {
         }
     }
 
-    /// How far a flap is pushed: less where it comes to lie on others or carries a tuck.
-    pub fn hold_rad(&self, flap: usize, moment: &Moment) -> f64 {
-        let settings = self.settings;
-        let flaps = &self.problem.flaps;
-        let is_below = |k: &usize| {
-            *k != flap
-                && flaps[*k].standing != Standing::Absent
-                && moment.angles_rad[*k].abs() <= settings.lying_rad
-                && overlap_closed(&flaps[flap], &flaps[*k])
-        };
-        let below: Vec<usize> = (0..flaps.len()).filter(is_below).collect();
-        let stacked = |&k: &usize| {
-            let lies_over =
-                |other: usize| are_opposite(&flaps[k], &flaps[other]) && overlap_closed(&flaps[k], &flaps[other]);
-            lies_over(flap) || below.iter().any(|&other| lies_over(other))
-        };
-        if below.iter().any(stacked) {
-            return settings.short_on_stacks_rad;
-        }
-        if !below.is_empty() || !flaps[flap].tucks.is_empty() {
-            return settings.short_on_others_rad;
-        }
-        let beyond_rad = self.load.folds[flap].return_rad - settings.rest_aim_rad;
-        let hold_rad = -beyond_rad.clamp(0.0, settings.most_overclose_rad);
-        if stopped_by_rims(self.problem, flap, hold_rad, settings) {
-            settings.short_on_rims_rad
-        } else {
-            hold_rad
-        }
-    }
-
-    /// Where a flap rests after a push.
-    pub fn rest_rad(&self, flap: usize, push: &PushMotion) -> f64 {
-        let hold_rad = push.hinge_rad[push.hinge_rad.len() - 1];
-        self.load.folds[flap].rest_rad(hold_rad).min(self.settings.closed_rad)
-    }
-
     /// One flap's push while the others stand as they do.
     ///
     /// # Errors
@@ -210,12 +174,10 @@ impl<G: Guard> Closer<'_, G> {
         }
         let hold_rad = self.hold_rad(flap, moment);
         if let Some(obstacle) = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings) {
-            return Err(WhyNot {
-                status: Status::Blocked,
-                reason: obstacle.to_string(),
-                by_flaps: true,
-                moves_box: false,
-            });
+            return Err(WhyNot::by_boards(&obstacle));
+        }
+        if hold_rad > self.settings.most_propped_rad {
+            return Err(WhyNot::by_boards(&Obstacle::Propped { flap: self.problem.flaps[flap].name.clone() }));
         }
         let most_strain = self.settings.most_strain;
         let first = self.pusher(flap, moment, hold_rad, most_strain).plan();
@@ -227,15 +189,16 @@ impl<G: Guard> Closer<'_, G> {
         }
     }
 
-    /// The same of a flap that stands so low that it closes even if the box slides a little; None where it does not.
+    /// The same without a reserve of force; a flap that stands low closes even if the box slides a little. None where there is none.
     pub fn push_home(&self, flap: usize, moment: &Moment) -> Option<PushMotion> {
         let hold_rad = self.hold_rad(flap, moment);
         let is_low = moment.angles_rad[flap] <= self.settings.slides_home_rad;
+        let most_strain = if is_low { f64::INFINITY } else { 1.0 };
         let meets = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings).is_some();
-        if !is_low || meets {
+        if meets || hold_rad > self.settings.most_propped_rad {
             return None;
         }
-        self.pusher(flap, moment, hold_rad, f64::INFINITY).plan().ok()
+        self.pusher(flap, moment, hold_rad, most_strain).plan().ok()
     }
 
     fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
@@ -250,6 +213,7 @@ impl<G: Guard> Closer<'_, G> {
                 half_board_m,
                 self.settings,
                 (self.load.folds[flap], self.load.stand.as_ref()),
+                OrientationGrid::coarse(),
             ),
             most_strain,
             flap,
@@ -281,8 +245,7 @@ impl<G: Guard> Way<'_, '_, G> {
     fn close(&mut self, flap: usize, push: PushMotion) -> Result<f64, WhyNot> {
         let ready = self.closer.arm.ready;
         let Some(transit) = self.transit(&push.approach[0], &ready) else {
-            let reason = Obstacle::NoWay { to: "to it" }.to_string();
-            return Err(WhyNot { status: Status::Blocked, reason, by_flaps: false, moves_box: false });
+            return Err(WhyNot { by_flaps: false, ..WhyNot::by_boards(&Obstacle::NoWay { to: "to it" }) });
         };
         let resting = self.angles_rad.clone();
         let rest_rad = self.closer.rest_rad(flap, &push);

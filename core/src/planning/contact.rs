@@ -29,6 +29,7 @@ pub struct Contacts<'a> {
     pub settings: &'a PlanningSettings,
     pub fold: Fold,
     pub stand: Option<&'a Stand>,
+    pub grid: &'static OrientationGrid,
     /// Tool points over the flap's plane, along the hinge and away from it.
     pub along_m: Vec<f64>,
     pub away_m: Vec<f64>,
@@ -42,6 +43,7 @@ impl<'a> Contacts<'a> {
         half_board_m: f64,
         settings: &'a PlanningSettings,
         (fold, stand): (Fold, Option<&'a Stand>),
+        grid: &'static OrientationGrid,
     ) -> Self {
         let inset = settings.contact_inset_m;
         let [most_along, most_away] = settings.most_contacts;
@@ -55,15 +57,25 @@ impl<'a> Contacts<'a> {
             settings,
             fold,
             stand,
+            grid,
             along_m: spread(inset, flap.hinge_length_m() - inset, settings.contact_step_m, most_along),
             away_m: spread(least_away, flap.length_m() + settings.contact_beyond_m, settings.contact_step_m, most_away),
             closed_from_base: UnitQuaternion::from_rotation_matrix(&rotation),
         }
     }
 
+    /// The same with other settings and all orientations.
+    pub fn finer<'b>(&self, settings: &'b PlanningSettings) -> Contacts<'b>
+    where
+        'a: 'b,
+    {
+        let grid = OrientationGrid::fine();
+        Contacts::new(self.flap, self.finger, self.half_board_m, settings, (self.fold, self.stand), grid)
+    }
+
     /// base_from_tool's rotation of an orientation of the grid.
     pub fn rotation(&self, orientation: usize) -> UnitQuaternion<f64> {
-        self.closed_from_base * OrientationGrid::shared().rotations[orientation]
+        self.closed_from_base * self.grid.rotations[orientation]
     }
 
     /// The tool pose at which a finger so turned, over the place `at` of the flap's plane, touches the flap at an angle. None where

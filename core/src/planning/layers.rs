@@ -7,13 +7,14 @@ use std::rc::Rc;
 use super::beam::{trace, Kept, Key, State};
 use super::contact::{Contacts, Grip};
 use super::guard::{Guard, Moment};
-use super::orientations::{blend, OrientationGrid};
+use super::orientations::blend;
 use super::posture::{limit_penalty, nearest, out_of_reach};
 use super::reason::{Obstacle, Tally};
 use super::settings::PlanningSettings;
 use crate::arm::{Arm, JointPositions, Solutions};
 
 /// What a layer's search needs to know.
+#[derive(Clone, Copy)]
 pub struct Layers<'a, G: Guard> {
     pub arm: &'a Arm,
     pub guard: &'a G,
@@ -33,6 +34,19 @@ pub struct Layers<'a, G: Guard> {
 pub enum Found {
     Paths(Vec<Vec<State>>),
     Stuck { layer: usize, tally: Tally },
+}
+
+impl Found {
+    /// Of a search from the end: its paths from the start.
+    pub fn reversed(self) -> Self {
+        match self {
+            Self::Paths(mut paths) => {
+                paths.iter_mut().for_each(|path| path.reverse());
+                Self::Paths(paths)
+            }
+            stuck => stuck,
+        }
+    }
 }
 
 type Reached = Option<Rc<(Grip, Solutions)>>;
@@ -95,7 +109,7 @@ impl<G: Guard> Layers<'_, G> {
         let mut kept = Kept::new(START_WIDTH * beam, beam);
         let mut tries = 0;
         for (place, orientation) in self.grips_by_penalty() {
-            if kept.is_full() || tries > START_TRIES {
+            if kept.is_full() || tries > START_TRIES * beam {
                 break;
             }
             let Some(reached) = self.reached(0, place, orientation, None, &memory, tally) else { continue };
@@ -130,7 +144,7 @@ impl<G: Guard> Layers<'_, G> {
     fn grips_by_penalty(&self) -> Vec<([usize; 2], usize)> {
         let frame = self.contacts.flap.frame(self.angles_rad[0]);
         let mut found = Vec::new();
-        for orientation in 0..OrientationGrid::shared().size() {
+        for orientation in 0..self.contacts.grid.size() {
             let rotation = self.contacts.rotation(orientation);
             for along in 0..self.contacts.along_m.len() {
                 for away in 0..self.contacts.away_m.len() {
@@ -181,7 +195,7 @@ impl<G: Guard> Layers<'_, G> {
         candidates: &mut BTreeMap<Key, State>,
         tally: &mut Tally,
     ) {
-        let near = &OrientationGrid::shared().near[state.orientation];
+        let near = &self.contacts.grid.near[state.orientation];
         let turned = near.iter().map(|&(orientation, angle_rad)| (state.place, orientation, 0.3 * angle_rad));
         let slid = self.places_beside(state.place).map(|place| (place, state.orientation, SLIDE_COST));
         for (place, orientation, change) in turned.chain(slid) {
@@ -307,6 +321,6 @@ impl<G: Guard> Layers<'_, G> {
 const MOST_PATHS: usize = 24;
 /// What sliding to the contact beside costs, besides the strain there: a finger that slips drags the box with it.
 const SLIDE_COST: f64 = 0.15;
-/// The first layer is this much wider than the others, and this many postures are tried for it.
+/// The first layer is this much wider than the others, and so many postures are tried for it for each state that is kept.
 const START_WIDTH: usize = 2;
-const START_TRIES: usize = 2000;
+const START_TRIES: usize = 100;

@@ -18,6 +18,8 @@ pub struct Lines<'a, G: Guard> {
 
 /// A flap that follows the finger as it springs back is given this many times the stand-off, one after the other.
 const STAND_OFFS: [f64; 4] = [1.0, 2.0, 4.0, 6.0];
+/// How far a way that slides off a flap leans off its face.
+const LEAN_OFF: f64 = 0.3;
 /// Less of a way out is none, of `withdraw_m`.
 const LEAST_WAY_OUT: f64 = 0.25;
 
@@ -35,22 +37,48 @@ impl<G: Guard> Lines<'_, G> {
         touching: &Moment,
         free: &Moment,
     ) -> Result<Vec<JointPositions>, Obstacle> {
+        let off = self.settings.stand_off_m;
+        let lifts = STAND_OFFS.map(|factor| frame.outward * (factor * off));
         let mut why = Obstacle::NoWay { to: "off the flap" };
-        for off in STAND_OFFS.map(|factor| factor * self.settings.stand_off_m) {
-            let first = match self.line(from, &grip.base_from_tool, &(frame.outward * off), touching) {
-                (first, None) => first,
-                (_, Some(obstacle)) => return Err(obstacle),
-            };
-            let stood = first[first.len() - 1];
-            let pose = moved(&grip.base_from_tool, &(frame.outward * off));
-            if let Some(obstacle) = self.conflict(&stood, free) {
-                why = obstacle;
-                continue;
-            }
-            match self.way_out(&stood, &pose, frame, free) {
-                Ok(second) => return Ok([&first[..], &second[1..]].concat()),
+        for way in lifts.into_iter().chain(self.slides(grip, frame)) {
+            match self.way_off(from, &grip.base_from_tool, &way, frame, touching, free) {
+                Ok(line) => return Ok(line),
                 Err(obstacle) => why = obstacle,
             }
+        }
+        Err(why)
+    }
+
+    /// Where there is no room to lift the finger off the face it slides out: along itself, past the flap's ends or its free edge.
+    fn slides(&self, grip: &Grip, frame: &FlapFrame) -> impl Iterator<Item = Vec3> {
+        let back = -Vec3::from(grip.base_from_tool.rotation.column(2));
+        let (slide_m, outward) = (self.settings.slide_off_m, frame.outward);
+        let ways = [back, frame.along, -frame.along, frame.away];
+        // Rather a little off the board than along it.
+        let leaning = ways.map(|way| way + outward * LEAN_OFF);
+        leaning.into_iter().chain(ways).map(move |way| way.normalize() * slide_m)
+    }
+
+    /// Along a way while the finger may touch, until nothing is near, and from there out.
+    fn way_off(
+        &self,
+        from: &JointPositions,
+        pose: &Rigid,
+        way: &Vec3,
+        frame: &FlapFrame,
+        touching: &Moment,
+        free: &Moment,
+    ) -> Result<Vec<JointPositions>, Obstacle> {
+        let (mut first, ended) = self.line(from, pose, way, touching);
+        let steps = self.steps(way);
+        let mut why = ended.unwrap_or(Obstacle::NoWay { to: "off the flap" });
+        // The first place where nothing is near: of a short way its end.
+        let Some(stood) = (1..first.len()).find(|&k| self.conflict(&first[k], free).is_none()) else { return Err(why) };
+        first.truncate(stood + 1);
+        let pose = moved(pose, &(way * (stood as f64 / steps as f64)));
+        match self.way_out(&first[stood], &pose, frame, free) {
+            Ok(second) => return Ok([&first[..], &second[1..]].concat()),
+            Err(obstacle) => why = obstacle,
         }
         Err(why)
     }
@@ -86,7 +114,7 @@ impl<G: Guard> Lines<'_, G> {
         way: &Vec3,
         moment: &Moment,
     ) -> (Vec<JointPositions>, Option<Obstacle>) {
-        let steps = (way.norm() / self.settings.line_step_m).ceil().max(1.0) as usize;
+        let steps = self.steps(way);
         let mut line = vec![*from];
         for step in 1..=steps {
             let target = moved(pose, &(way * (step as f64 / steps as f64)));
@@ -104,6 +132,10 @@ impl<G: Guard> Lines<'_, G> {
             line.push(positions);
         }
         (line, None)
+    }
+
+    fn steps(&self, way: &Vec3) -> usize {
+        (way.norm() / self.settings.line_step_m).ceil().max(1.0) as usize
     }
 
     fn conflict(&self, positions: &JointPositions, moment: &Moment) -> Option<Obstacle> {

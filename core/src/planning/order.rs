@@ -29,6 +29,7 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
         wanted: open.len(),
         seconds: vec![0.0; angles_rad.len()],
         hopeless: Vec::new(),
+        searches: vec![0; angles_rad.len()],
     };
     let ranked = likeliest_first(closer, open);
     search.extend(&mut Vec::new(), &ranked, angles_rad);
@@ -113,7 +114,12 @@ struct Search<'a, 'b, G: Guard> {
     seconds: Vec<f64>,
     /// Flaps that nothing but themselves, the arm and what stands still keeps open.
     hopeless: Vec<usize>,
+    /// For each flap, in the problem's order: how many searches of the arm's ways found none.
+    searches: Vec<usize>,
 }
+
+/// A flap for which so many searches found nothing, after different others, is not tried again.
+const MOST_SEARCHES: usize = 3;
 
 impl<G: Guard> Search<'_, '_, G> {
     /// True when all are closed.
@@ -163,8 +169,11 @@ impl<G: Guard> Search<'_, '_, G> {
             let started = Instant::now();
             let tried = self.closer.push(flap, &Moment::resting(angles_rad));
             self.seconds[flap] += started.elapsed().as_secs_f64();
-            if tried.as_ref().is_err_and(|why| !why.by_flaps) {
-                self.hopeless.push(flap);
+            if let Err(why) = &tried {
+                self.searches[flap] += usize::from(why.searched);
+                if !why.by_flaps || self.searches[flap] >= MOST_SEARCHES {
+                    self.hopeless.push(flap);
+                }
             }
             self.known.insert(key, tried);
         }

@@ -7,7 +7,8 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion};
 use crate::geometry::Vec3;
 
 /// The points of an octahedron cut this fine, on the sphere: 4 n^2 + 2 tool directions, the flap's own axes among them.
-const FINENESS: i32 = 4;
+const COARSE: i32 = 4;
+const FINE: i32 = 6;
 /// Turns about the tool's axis.
 const ROLLS: usize = 8;
 /// Orientations at most this far apart follow one another, rad: a step of the grid either way.
@@ -20,15 +21,21 @@ pub struct OrientationGrid {
 }
 
 impl OrientationGrid {
-    /// The grid; made once.
-    pub fn shared() -> &'static Self {
+    /// The grid of quick searches; made once.
+    pub fn coarse() -> &'static Self {
         static GRID: OnceLock<OrientationGrid> = OnceLock::new();
-        GRID.get_or_init(Self::new)
+        GRID.get_or_init(|| Self::new(COARSE))
     }
 
-    fn new() -> Self {
+    /// That of searches where others failed; made once.
+    pub fn fine() -> &'static Self {
+        static GRID: OnceLock<OrientationGrid> = OnceLock::new();
+        GRID.get_or_init(|| Self::new(FINE))
+    }
+
+    fn new(fineness: i32) -> Self {
         let mut rotations = Vec::new();
-        for direction in tool_directions() {
+        for direction in tool_directions(fineness) {
             for roll in 0..ROLLS {
                 let roll_rad = std::f64::consts::TAU * roll as f64 / ROLLS as f64;
                 rotations.push(pointing(&direction, roll_rad));
@@ -50,8 +57,7 @@ fn nearest_first(from: &UnitQuaternion<f64>, all: &[UnitQuaternion<f64>]) -> Vec
     found
 }
 
-fn tool_directions() -> Vec<Vec3> {
-    let n = FINENESS;
+fn tool_directions(n: i32) -> Vec<Vec3> {
     let mut found = Vec::new();
     for x in -n..=n {
         for y in -n..=n {
@@ -92,15 +98,17 @@ mod tests {
 
     #[test]
     fn every_direction_has_neighbours_and_its_own_axes_are_there() {
-        let grid = OrientationGrid::shared();
-        assert_eq!(grid.size(), 66 * ROLLS);
-        for (k, near) in grid.near.iter().enumerate() {
-            assert_eq!(near[0].0, k);
-            let others = near.iter().filter(|(other, _)| other / ROLLS != k / ROLLS);
-            assert!(others.count() >= 3, "{k}: {near:?}");
-        }
-        for axis in [Vec3::x(), -Vec3::x(), Vec3::y(), -Vec3::y(), Vec3::z(), -Vec3::z()] {
-            assert!(grid.rotations.iter().any(|r| (r * Vec3::z() - axis).norm() < 1e-12));
-        }
+        let grids = [(OrientationGrid::coarse(), 66), (OrientationGrid::fine(), 146)].map(|(grid, directions)| {
+            assert_eq!(grid.size(), directions * ROLLS);
+            for (k, near) in grid.near.iter().enumerate() {
+                assert_eq!(near[0].0, k);
+                let others = near.iter().filter(|(other, _)| other / ROLLS != k / ROLLS);
+                assert!(others.count() >= 3, "{k}: {near:?}");
+            }
+            for axis in [Vec3::x(), -Vec3::x(), Vec3::y(), -Vec3::y(), Vec3::z(), -Vec3::z()] {
+                assert!(grid.rotations.iter().any(|r| (r * Vec3::z() - axis).norm() < 1e-12));
+            }
+        });
+        assert_eq!(grids.len(), 2);
     }
 }

@@ -5,11 +5,12 @@ use nalgebra::UnitQuaternion;
 use super::beam::State;
 use super::contact::Contacts;
 use super::guard::{Guard, Moment};
-use super::layers::{Found, Layers};
+use super::layers::Layers;
 use super::line::Lines;
 use super::orientations::blend;
 use super::posture::nearest;
 use super::reason::{Obstacle, Status, Tally, WhyNot};
+use super::searches::Search;
 use super::settings::PlanningSettings;
 use super::touch::Finger;
 use crate::arm::{Arm, JointPositions};
@@ -53,45 +54,25 @@ impl<G: Guard> Pusher<'_, G> {
         let pressed = self.pressed();
         let angles_rad = layers_between(self.moment.angles_rad[self.flap], self.hold_rad, self.settings.layer_rad);
         let moments: Vec<Moment> = angles_rad.iter().map(|&angle_rad| pressed.pushing(self.flap, angle_rad)).collect();
-        let layers = Layers {
-            arm: self.arm,
-            guard: self.guard,
-            contacts: &self.contacts,
-            settings: self.settings,
-            most_strain: self.most_strain,
-            flap: self.flap,
-            moment: &pressed,
-            angles_rad: &angles_rad,
-            moments: &moments,
+        let search = Search {
+            pusher: self,
+            lines: Lines { arm: self.arm, guard: self.guard, settings: self.settings },
+            before: self.moment.clone(),
+            touching: pressed.pushing(self.flap, angles_rad[0]),
+            held: pressed.pushing(self.flap, self.hold_rad),
+            after: pressed.left(self.flap, self.rest_rad),
+            pressed,
+            angles_rad,
+            moments,
         };
-        let lines = Lines { arm: self.arm, guard: self.guard, settings: self.settings };
-        let start = self.contacts.flap.frame(angles_rad[0]);
-        let end = self.contacts.flap.frame(self.hold_rad);
-        let before = self.moment.clone();
-        let after = pressed.left(self.flap, self.rest_rad);
-        let held = pressed.pushing(self.flap, self.hold_rad);
-        let touching = pressed.pushing(self.flap, angles_rad[0]);
-        let mut why = None;
+        let fine_settings = self.settings.with_fine_contacts();
+        let fine = self.contacts.finer(&fine_settings);
         self.guard.explain_anew();
-        for &beam in &self.settings.beams {
-            let found = layers.search(
-                beam,
-                &mut |from, grip| lines.leave(from, grip, &start, &touching, &before).err(),
-                &mut |from, grip| lines.leave(from, grip, &end, &held, &after).err(),
-            );
-            match found {
-                Found::Stuck { layer, tally } => why = Some(self.why_stuck(angles_rad[layer], layer == 0, &tally)),
-                Found::Paths(paths) => {
-                    let mut tally = Tally::default();
-                    self.guard.explain_anew();
-                    for path in &paths {
-                        match self.dense(&layers, path, &lines, (&touching, &before), (&held, &after)) {
-                            Ok(motion) => return Ok(motion),
-                            Err(obstacle) => tally.add(obstacle),
-                        }
-                    }
-                    why = Some(self.why_stuck(self.hold_rad, false, &tally));
-                }
+        let mut why = None;
+        for (k, &beam) in self.settings.beams.iter().enumerate() {
+            match search.run(beam, if k == 0 { &self.contacts } else { &fine }) {
+                Ok(motion) => return Ok(motion),
+                Err(found) => why = Some(found),
             }
         }
         Err(why.unwrap_or(WhyNot {
@@ -99,6 +80,7 @@ impl<G: Guard> Pusher<'_, G> {
             reason: "no search was allowed".into(),
             by_flaps: false,
             moves_box: false,
+            searched: true,
         }))
     }
 
@@ -114,7 +96,7 @@ impl<G: Guard> Pusher<'_, G> {
     }
 
     /// The path of a search, dense, smooth where that keeps the clearance, and with its ends.
-    fn dense(
+    pub fn dense(
         &self,
         layers: &Layers<'_, G>,
         path: &[State],
@@ -122,13 +104,15 @@ impl<G: Guard> Pusher<'_, G> {
         first: (&Moment, &Moment),
         last: (&Moment, &Moment),
     ) -> Result<PushMotion, Obstacle> {
-        let knots: Vec<([f64; 2], UnitQuaternion<f64>)> =
-            path.iter().map(|state| (layers.place_m(state.place), self.contacts.rotation(state.orientation))).collect();
+        let knots: Vec<([f64; 2], UnitQuaternion<f64>)> = path
+            .iter()
+            .map(|state| (layers.place_m(state.place), layers.contacts.rotation(state.orientation)))
+            .collect();
         let sampled = self.sampled(layers, &knots, path[0].positions, smooth);
         let mut motion = sampled.or_else(|_| self.sampled(layers, &knots, path[0].positions, straight))?;
         let grip_at = |angle_rad: f64, knot: &([f64; 2], UnitQuaternion<f64>)| {
             let frame = self.contacts.flap.frame(angle_rad);
-            self.contacts.grip(&frame, knot.0, &knot.1).map(|grip| (frame, grip)).ok_or(Obstacle::Jump)
+            layers.contacts.grip(&frame, knot.0, &knot.1).map(|grip| (frame, grip)).ok_or(Obstacle::Jump)
         };
         let (frame, grip) = grip_at(layers.angles_rad[0], &knots[0])?;
         motion.approach = lines.leave(&motion.push[0], &grip, &frame, first.0, first.1)?;
@@ -164,7 +148,7 @@ impl<G: Guard> Pusher<'_, G> {
             let weights = weigh(share * (knots.len() - 1) as f64, knots.len());
             let (at, rotation) = mixed(knots, &weights);
             let frame = self.contacts.flap.frame(angle_rad);
-            let grip = self.contacts.grip(&frame, at, &rotation).ok_or(Obstacle::Jump)?;
+            let grip = layers.contacts.grip(&frame, at, &rotation).ok_or(Obstacle::Jump)?;
             let solutions = self.arm.inverse_near(&grip.base_from_tool, &last);
             let (positions, turn) = nearest(&solutions, &last).ok_or(Obstacle::Reach)?;
             if step > 0 && turn > self.settings.most_sample_turn_rad {
@@ -203,7 +187,7 @@ impl<G: Guard> Pusher<'_, G> {
             _ => false,
         });
         let moves_box = tally.any(|obstacle| *obstacle == Obstacle::Moves);
-        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, moves_box }
+        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, moves_box, searched: true }
     }
 }
 

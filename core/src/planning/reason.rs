@@ -17,6 +17,8 @@ pub enum Obstacle {
     Moves,
     /// Two boards meet, whatever the arm does.
     Boards { flap: String, other: String },
+    /// Flaps that are closed keep it up.
+    Propped { flap: String },
     /// The arm cannot follow without a jump of its joints.
     Jump,
     /// There is no way from the arm's posture before to this flap, or back.
@@ -32,6 +34,9 @@ impl fmt::Display for Obstacle {
             Self::Something => write!(f, "something is in the way"),
             Self::Moves => write!(f, "the crease takes more force than holds the box: it would slide or tip"),
             Self::Boards { flap, other } => write!(f, "{flap} meets {other}"),
+            Self::Propped { flap } => {
+                write!(f, "{flap} would come to lie on the ends of flaps that overlap, far from closed")
+            }
             Self::Jump => write!(f, "the arm would have to change its posture while pushing"),
             Self::NoWay { to } => write!(f, "no way was found {to}"),
         }
@@ -97,4 +102,14 @@ pub struct WhyNot {
     pub by_flaps: bool,
     /// Whether pushes were left out that would have moved the box.
     pub moves_box: bool,
+    /// Whether the arm's ways were searched for, which takes time.
+    pub searched: bool,
+}
+
+impl WhyNot {
+    /// Boards are in the way, whatever the arm does.
+    pub fn by_boards(obstacle: &Obstacle) -> Self {
+        let reason = obstacle.to_string();
+        Self { status: Status::Blocked, reason, by_flaps: true, moves_box: false, searched: false }
+    }
 }

@@ -24,10 +24,13 @@ pub struct PlanningSettings {
     pub short_on_rims_rad: f64,
     /// The same where flaps across from one another overlap: boards lie on boards, and the upper one's edge is near the lower's hinge.
     pub short_on_stacks_rad: f64,
+    /// A flap that others prop up higher than this is left open.
+    pub most_propped_rad: f64,
     /// Boards that come nearer to a flap than this on their way down are taken to stop it.
     pub rim_gap_m: f64,
     /// What is taken for granted of folds and weight, and the greatest share of what moves the box that a push may be. A flap below
-    /// this angle closes even if the box slides a little: where nothing else closes it, it is pushed all the same, after the others.
+    /// this angle closes even if the box slides a little: where nothing else closes it, it is pushed all the same, after the others;
+    /// any other is then pushed up to what moves the box.
     pub assumed: Assumed,
     pub most_strain: f64,
     pub slides_home_rad: f64,
@@ -37,7 +40,7 @@ pub struct PlanningSettings {
     pub layer_rad: f64,
     /// Between two samples of a push, at most.
     pub sample_rad: f64,
-    /// States kept in each layer: a first try, and wider ones where it fails.
+    /// States kept in each layer: a first try, and wider ones with finer contacts where it fails.
     pub beams: Vec<usize>,
     /// Between contacts along and across a flap, and how many of them at most.
     pub contact_step_m: f64,
@@ -47,6 +50,8 @@ pub struct PlanningSettings {
     pub contact_inset_m: f64,
     pub contact_beyond_m: f64,
     pub least_lever: f64,
+    /// What replaces these where a first search led nowhere.
+    pub fine_contacts: FineContacts,
     /// The finger is planned this far off the face, so that it is not in the board between two samples.
     pub touch_gap_m: f64,
     /// How far the tool's axis may lean back over the flap's edge, as the sine.
@@ -59,6 +64,8 @@ pub struct PlanningSettings {
     /// The tool stands off a flap by this before it touches it, then leaves by up to this.
     pub stand_off_m: f64,
     pub withdraw_m: f64,
+    /// Where there is no room for that it slides off, at most so far.
+    pub slide_off_m: f64,
     /// Between two samples of a straight line of the tool.
     pub line_step_m: f64,
     /// Between two checked postures of a motion of the joints: the widest turn of any joint.
@@ -78,6 +85,31 @@ pub struct PlanningSettings {
     pub check_s: f64,
 }
 
+/// Contacts closer together and nearer to what slips off: dearer, and for flaps that cannot be held better.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FineContacts {
+    pub contact_step_m: f64,
+    pub most_contacts: [usize; 2],
+    pub least_lever: f64,
+    pub most_lean: f64,
+    pub least_hook_m: f64,
+}
+
+impl Default for FineContacts {
+    fn default() -> Self {
+        Self { contact_step_m: 0.02, most_contacts: [13, 9], least_lever: 0.2, most_lean: 0.85, least_hook_m: 0.010 }
+    }
+}
+
+impl PlanningSettings {
+    /// With the fine contacts in the place of the others.
+    pub fn with_fine_contacts(&self) -> Self {
+        let FineContacts { contact_step_m, most_contacts, least_lever, most_lean, least_hook_m } = self.fine_contacts;
+        Self { contact_step_m, most_contacts, least_lever, most_lean, least_hook_m, ..self.clone() }
+    }
+}
+
 impl Default for PlanningSettings {
     fn default() -> Self {
         Self {
@@ -90,6 +122,7 @@ impl Default for PlanningSettings {
             short_on_others_rad: 0.3f64.to_radians(),
             short_on_rims_rad: 0.5f64.to_radians(),
             short_on_stacks_rad: 2.5f64.to_radians(),
+            most_propped_rad: 20f64.to_radians(),
             rim_gap_m: 0.0003,
             assumed: Assumed::default(),
             most_strain: 0.85,
@@ -106,10 +139,12 @@ impl Default for PlanningSettings {
             touch_gap_m: 0.0003,
             most_lean: 0.6,
             least_hook_m: 0.018,
+            fine_contacts: FineContacts::default(),
             most_turn_rad: 0.9,
             most_sample_turn_rad: 0.25,
             stand_off_m: 0.015,
             withdraw_m: 0.10,
+            slide_off_m: 0.15,
             line_step_m: 0.005,
             joint_step_rad: 0.05,
             transit_tries: 4000,

@@ -46,13 +46,19 @@ impl Finger {
         flap_from_tool: &Matrix3<f64>,
     ) -> Option<Touch> {
         let corners = self.corners(flap_from_tool);
+        let place = |p: &Vec3| [at[0] + p.x, at[1] + p.y];
+        // Mostly the corner that reaches furthest is over the flap: nothing reaches further.
+        let furthest =
+            corners[1..].iter().fold(&corners[0], |best, corner| if corner.z < best.z { corner } else { best });
+        if contains(outline, place(furthest)) {
+            return Some(Touch { tool_outward_m: half_board_m - furthest.z, contact: place(furthest) });
+        }
         let mut lowest: Option<(f64, [f64; 2])> = None;
         let mut consider = |w: f64, place: [f64; 2]| {
             if lowest.is_none_or(|(best, _)| w < best) {
                 lowest = Some((w, place));
             }
         };
-        let place = |p: &Vec3| [at[0] + p.x, at[1] + p.y];
         for corner in &corners {
             if contains(outline, place(corner)) {
                 consider(corner.z, place(corner));

@@ -217,3 +217,39 @@ pub fn widest_turn(from: &JointPositions, to: &JointPositions) -> f64 {
 fn length(way: &[JointPositions]) -> f64 {
     way.windows(2).map(|pair| widest_turn(&pair[0], &pair[1])).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::reason::Obstacle;
+    use super::*;
+    use crate::geometry::Rigid;
+
+    const VIPER: &str = include_str!("../../../src/boxwright/robots/data/viper_s850.toml");
+    /// What rounding leaves between two postures that are one.
+    const HAIR_RAD: f64 = 5e-10;
+
+    /// Lets nothing pass whose second joint is between the two of a hair.
+    struct HairWall;
+
+    impl Guard for HairWall {
+        fn conflict(&self, positions_rad: &[f64], _: &Moment, _: f64) -> Option<Obstacle> {
+            (positions_rad[1] > 0.0 && positions_rad[1] < HAIR_RAD).then_some(Obstacle::Something)
+        }
+
+        fn tool_conflict(&self, _: &Rigid, _: &Moment, _: f64) -> Option<Obstacle> {
+            None
+        }
+    }
+
+    #[test]
+    fn a_way_ends_where_it_was_to_end_though_its_last_corner_is_that_but_for_rounding() {
+        let arm = Arm::from_toml(VIPER).unwrap();
+        let (settings, moment) = (PlanningSettings::default(), Moment::resting(&[]));
+        let transit = Transit { arm: &arm, guard: &HairWall, settings: &settings, moment: &moment, step_rad: 0.05 };
+        let posture = |q: [f64; 2]| JointPositions::from_slice(&[q[0], q[1], 1.0, 0.0, 0.5, 0.0]);
+        let (from, via, to) = (posture([0.0, 0.0]), posture([0.5, 0.0]), posture([0.5, HAIR_RAD]));
+        assert!(!transit.is_clear(&from, &to));
+        let way = transit.way(&from, &to, &via).unwrap();
+        assert_eq!((way[0], way[way.len() - 1]), (from, to));
+    }
+}

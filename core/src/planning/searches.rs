@@ -1,0 +1,83 @@
+//! The searches for one flap's push: from where it stands, and from its end.
+
+use super::contact::{Contacts, Grip};
+use super::guard::{Guard, Moment};
+use super::layers::{Found, Layers};
+use super::line::Lines;
+use super::push::{PushMotion, Pusher};
+use super::reason::{Tally, WhyNot};
+use crate::arm::JointPositions;
+
+/// One flap's searches, and where the flaps are before, during and after them.
+pub struct Search<'a, 'b, G: Guard> {
+    pub pusher: &'a Pusher<'b, G>,
+    pub lines: Lines<'a, G>,
+    pub before: Moment,
+    pub touching: Moment,
+    pub held: Moment,
+    pub after: Moment,
+    pub pressed: Moment,
+    pub angles_rad: Vec<f64>,
+    pub moments: Vec<Moment>,
+}
+
+impl<G: Guard> Search<'_, '_, G> {
+    /// From where the flap stands, and where that ends on the way, from its end: some ways narrow towards it.
+    pub fn run(&self, beam: usize, contacts: &Contacts<'_>) -> Result<PushMotion, WhyNot> {
+        let pusher = self.pusher;
+        let layers = Layers {
+            arm: pusher.arm,
+            guard: pusher.guard,
+            contacts,
+            settings: pusher.settings,
+            most_strain: pusher.most_strain,
+            flap: pusher.flap,
+            moment: &self.pressed,
+            angles_rad: &self.angles_rad,
+            moments: &self.moments,
+        };
+        let (start, end) = (contacts.flap.frame(self.angles_rad[0]), contacts.flap.frame(pusher.hold_rad));
+        let mut comes = |from: &JointPositions, grip: &Grip| {
+            self.lines.leave(from, grip, &start, &self.touching, &self.before).err()
+        };
+        let mut leaves =
+            |from: &JointPositions, grip: &Grip| self.lines.leave(from, grip, &end, &self.held, &self.after).err();
+        let found = layers.search(beam, &mut comes, &mut leaves);
+        let stuck = match self.followed(&layers, found) {
+            Ok(motion) => return Ok(motion),
+            Err(stuck) => stuck,
+        };
+        let (layer, tally) = stuck;
+        if layer > 0 {
+            let (back_rad, back_moments) = (reversed(&self.angles_rad), reversed(&self.moments));
+            let back = Layers { angles_rad: &back_rad, moments: &back_moments, ..layers };
+            let found = back.search(beam, &mut leaves, &mut comes).reversed();
+            if let Ok(motion) = self.followed(&layers, found) {
+                return Ok(motion);
+            }
+        }
+        Err(pusher.why_stuck(self.angles_rad[layer], layer == 0, &tally))
+    }
+
+    /// The first of the paths that holds between its layers too, else the layer at which they end and what was in the way.
+    fn followed(&self, layers: &Layers<'_, G>, found: Found) -> Result<PushMotion, (usize, Tally)> {
+        let paths = match found {
+            Found::Stuck { layer, tally } => return Err((layer, tally)),
+            Found::Paths(paths) => paths,
+        };
+        let mut tally = Tally::default();
+        self.pusher.guard.explain_anew();
+        for path in &paths {
+            let (first, last) = ((&self.touching, &self.before), (&self.held, &self.after));
+            match self.pusher.dense(layers, path, &self.lines, first, last) {
+                Ok(motion) => return Ok(motion),
+                Err(obstacle) => tally.add(obstacle),
+            }
+        }
+        Err((self.angles_rad.len() - 1, tally))
+    }
+}
+
+fn reversed<T: Clone>(items: &[T]) -> Vec<T> {
+    items.iter().rev().cloned().collect()
+}
