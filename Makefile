@@ -123,6 +123,7 @@ weights-fitted:
 	$(BIN)/boxwright synth $(SETS)/judge_none --count 160 --seed 504 --category none
 	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none --method fitted -o $(WEIGHTS)/fitted/judgement.json
 	$(BIN)/python -m benchmarks.kinds $(SETS)/judge $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
+	$(BIN)/python -m benchmarks.coverage $(SETS)/judge --scales
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, and 200 and 60 without an open box)
 	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 3001
