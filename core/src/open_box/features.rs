@@ -59,8 +59,14 @@ const OPEN_RAD: f64 = 0.4;
 /// Readings are told in this unit, by the logarithm of one more.
 const UNIT: f64 = 400.0;
 
-fn amount(readings: f64) -> f64 {
+/// Readings by their logarithm.
+pub fn amount(readings: f64) -> f64 {
     (readings.max(0.0) / UNIT).ln_1p()
+}
+
+/// The value of a feature, 0 where it was not asked.
+pub fn named(features: &Features, name: &str) -> f64 {
+    features.iter().find(|(other, _)| *other == name).map_or(0.0, |(_, value)| *value)
 }
 
 /// Whether there is any, by degrees.

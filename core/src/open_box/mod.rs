@@ -3,6 +3,7 @@
 
 mod answer;
 mod choose;
+mod closed;
 mod crease;
 mod ends;
 mod evidence;
@@ -37,6 +38,7 @@ mod views;
 mod yaw;
 
 pub use answer::answer;
+pub use closed::may_be_closed;
 pub use features::Features;
 pub use find::find;
 pub use grow::FoundBox;

@@ -19,6 +19,8 @@ pub enum Refusal {
     NotFitted(NotFitted),
     /// So many of its panels were seen, fewer than these.
     FewPanels { seen: usize, least: usize },
+    /// Nothing that was seen of it tells it from a closed box.
+    MayBeClosed,
     /// Its probability, and the least that is told.
     Improbable { probability: f64, least: f64 },
 }
@@ -28,6 +30,7 @@ impl fmt::Display for Refusal {
         match self {
             Self::NotFitted(why) => write!(f, "{why}"),
             Self::FewPanels { seen, least } => write!(f, "{seen} of its panels were seen; a box needs {least}"),
+            Self::MayBeClosed => write!(f, "all that was seen of it could be the outside of a closed box"),
             Self::Improbable { probability, least } => {
                 write!(f, "that it is a box has probability {probability:.2}; told are those of {least} and more")
             }

@@ -85,6 +85,9 @@ fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Tel
     if let Some(probability) = object.probability.filter(|p| *p < LEAST_PROBABILITY) {
         return Some(Refusal::Improbable { probability, least: LEAST_PROBABILITY });
     }
+    if open_box::may_be_closed(one) {
+        return Some(Refusal::MayBeClosed);
+    }
     let seen = object.parts.iter().filter(|part| part.observed).count();
     if seen < LEAST_PANELS {
         return Some(Refusal::FewPanels { seen, least: LEAST_PANELS });
