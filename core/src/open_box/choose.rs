@@ -56,8 +56,8 @@ fn heaviest(weights: &[f64], excludes: &dyn Fn(usize, usize) -> bool) -> Vec<usi
     let mut group_of = Vec::new();
     let table: Vec<Vec<bool>> =
         (0..weights.len()).map(|a| (0..weights.len()).map(|b| a != b && excludes(a, b)).collect()).collect();
-    for one in 0..weights.len() {
-        let place = groups.iter().position(|group| group.iter().all(|&other| table[one][other]));
+    for (one, excluded) in table.iter().enumerate() {
+        let place = groups.iter().position(|group| group.iter().all(|&other| excluded[other]));
         let place = place.unwrap_or(groups.len());
         if place == groups.len() {
             groups.push(Vec::new());
