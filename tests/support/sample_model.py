@@ -90,7 +90,7 @@ def sample_model() -> dict[str, Any]:
         "format": "boxwright.model",
         "version": 1,
         "method": "paper",
-        "source": {"file": "frame.pcd", "points": 307200, "organized": True},
+        "source": {"file": "frame.pcd", "points": 307200, "organized": True, "frames": []},
         "warnings": ["object 1: fewer than two sides, no URDF"],
         "seconds": {"read": 0.001, "stages": {"planes": 0.1, "inference": 0.2}, "total": 0.31},
         "up": [0.0, 0.0, 1.0],
