@@ -1,7 +1,7 @@
 use crate::model::OpenBoxRoles;
 
 /// What a part of an open box is; sides, flaps and tuck flaps with their number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Role {
     Base,
     Side(usize),

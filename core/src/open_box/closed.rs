@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::features::named;
+use super::features::{amount, named};
 use super::grow::FoundBox;
 use crate::fit::{layout, Role};
 
@@ -21,7 +21,5 @@ pub fn may_be_closed(found: &FoundBox) -> bool {
     let body = &found.solution.body;
     let is_seen = |k: usize| !found.labels.of(Role::Flap(k)).is_empty();
     let in_plane = |k: usize| (body.get(layout::flap(k) + layout::FLAP_ANGLE) - FRAC_PI_2).abs() < IN_PLANE_RAD;
-    inner + base < LEAST_INSIDE
-        && through < super::features::amount(LEAST_INSIDE)
-        && (0..4).filter(|&k| is_seen(k)).all(in_plane)
+    inner + base < LEAST_INSIDE && through < amount(LEAST_INSIDE) && (0..4).filter(|&k| is_seen(k)).all(in_plane)
 }

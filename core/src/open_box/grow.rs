@@ -71,8 +71,7 @@ pub fn finish(
     let (body, present) = (found.solution.body.turned(turn), found.present.turned(turn));
     let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
-    let creased = with_creases(sight, &body, &present, &labels);
-    let (body, present) = match creased {
+    let (body, present) = match with_creases(sight, &body, &present, &labels) {
         Some((body, present)) => {
             labels = label(sight, &body, &present, FINE_M, 1);
             (body, present)
@@ -100,8 +99,8 @@ pub fn finish(
     Ok(out)
 }
 
-/// Of boxes that still compete.
-fn competing(settings: &FitSettings) -> FitSettings {
+/// Of boxes that still compete, and of places that are not yet known well.
+pub fn competing(settings: &FitSettings) -> FitSettings {
     FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }
 }
 

@@ -1,8 +1,10 @@
+use std::collections::BTreeMap;
+
 use super::ends::{ends, FAR};
 use super::evidence::Sheet;
 use super::settle::{lowest_m, settled, LEVEL_COS};
 use super::sight::Sight;
-use super::surfaces::{roles, Labels, Present};
+use super::surfaces::{Labels, Present};
 use crate::cloud::CloudView;
 use crate::fit::{
     kept_length, priors, solve, FitSettings, FittedBody, NotFitted, OtherView, PartEnds, PartReadings, PartSegment,
@@ -41,14 +43,16 @@ pub fn refit_views(
 ) -> Result<Solution, NotFitted> {
     let body = &settled(body);
     let shared = |role: Role| shared_by(views, role, settings);
-    let mut parts = views.iter().map(|(sight, labels)| readings_of(sight, body, present, labels, shared));
+    let told: Vec<Vec<(PartReadings, bool)>> =
+        views.iter().map(|(sight, labels)| readings_of(sight, body, present, labels, shared)).collect();
+    let kept = kept_lengths(&told, body);
+    let mut parts = told.into_iter().map(|told| told.into_iter().map(|(readings, _)| readings).collect());
     let first = parts.next().unwrap_or_default();
     let others = views
         .iter()
         .skip(1)
         .zip(parts)
         .map(|((sight, _), parts)| OtherView { parts, sigma: sigma(sight, body, settings) });
-    let kept = kept_lengths(views, body, present);
     let up = (body.input_from_object.rotation * Vec3::z()).z;
     let stands = lowest_m(body).abs() < settings.stands_on_support_m;
     let plane = Plane { normal: Vec3::z(), distance: 0.0 };
@@ -69,14 +73,14 @@ fn sigma(sight: &Sight, body: &FittedBody, settings: &FitSettings) -> PlaceSigma
     PlaceSigma { turn_rad, shift_m: settings.place_sigma_m.hypot(range_m * turn_rad) }
 }
 
-/// What one view's readings tell of each panel.
+/// What one view's readings tell of each panel, and whether they show its far end.
 fn readings_of(
     sight: &Sight,
     body: &FittedBody,
     present: &Present,
     labels: &Labels,
     settings_of: impl Fn(Role) -> FitSettings,
-) -> Vec<PartReadings> {
+) -> Vec<(PartReadings, bool)> {
     let cloud =
         CloudView { points: &sight.points, width: sight.width, height: sight.height, viewpoint: Some(sight.eye) };
     let used: Vec<_> = labels.parts.iter().filter(|(_, points)| tells(labels, points)).collect();
@@ -86,19 +90,20 @@ fn readings_of(
         let sheet = Sheet::new(body, *role, &sight.eye);
         let (center, normal) = sheet.at(0.0, sheet.length_m / 2.0);
         let normal = if normal.dot(&(sight.eye - center)) < 0.0 { -normal } else { normal };
-        let told = PartEnds::Told(ends(sight, body, present, *role));
-        let segment = PartSegment { role: *role, normal, center, ends: told, points };
-        PartReadings::new(&segment, body, &sensor, &settings_of(*role))
+        let ends = ends(sight, body, present, *role);
+        let segment = PartSegment { role: *role, normal, center, ends: PartEnds::Told(ends), points };
+        (PartReadings::new(&segment, body, &sensor, &settings_of(*role)), ends[FAR].is_some())
     });
     parts.collect()
 }
 
 /// Keeps the length of each part whose far end no view that sees it shows.
-fn kept_lengths(views: &[(&Sight, &Labels)], body: &FittedBody, present: &Present) -> Vec<Prior> {
-    let used = |role: Role| views.iter().filter(move |(_, labels)| tells(labels, labels.of(role)));
-    let is_open = |role: Role| used(role).all(|(sight, _)| ends(sight, body, present, role)[FAR].is_none());
-    let seen = roles(present).into_iter().filter(|role| used(*role).count() > 0);
-    seen.filter(|role| is_open(*role)).filter_map(|role| kept_length(body, role)).collect()
+fn kept_lengths(told: &[Vec<(PartReadings, bool)>], body: &FittedBody) -> Vec<Prior> {
+    let mut shown: BTreeMap<Role, bool> = BTreeMap::new();
+    for (readings, shows_end) in told.iter().flatten() {
+        *shown.entry(readings.role).or_default() |= shows_end;
+    }
+    shown.iter().filter(|(_, shows_end)| !**shows_end).filter_map(|(&role, _)| kept_length(body, role)).collect()
 }
 
 fn tells(labels: &Labels, points: &[u32]) -> bool {

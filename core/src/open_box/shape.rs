@@ -56,13 +56,13 @@ impl Shape {
     /// Of an object with a fitted body, whose parameters tell the flaps that were seen; `None` where nothing was fitted.
     pub fn of_answer(object: &ObjectAnswer) -> Option<Self> {
         let number = |name: String| object.parameters.get(&name).map(|parameter| parameter.value);
-        let position = |k: usize| object.joints.iter().find(|joint| joint.child == format!("flap_{k}"));
+        let joint = |k: usize| object.joints.iter().find(|joint| joint.child == format!("flap_{k}"));
         object.parameters.get("length")?;
         Some(Self {
             dimensions_m: object.dimensions?,
             thickness_m: object.thickness?,
             flaps_m: std::array::from_fn(|k| number(format!("flap_{k}_length"))),
-            flaps_rad: std::array::from_fn(|k| position(k).map_or(0.0, |joint| joint.position)),
+            flaps_rad: std::array::from_fn(|k| joint(k).map_or(0.0, |joint| joint.position)),
             has_tuck: std::array::from_fn(|k| number(format!("tuck_{k}_length")).is_some()),
         })
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use super::super::grow::{sound, COARSE_M, FINE_M, ONCE_FITTED_M};
+use super::super::grow::{competing, sound, COARSE_M, FINE_M, ONCE_FITTED_M};
 use super::super::refit::refit_views;
 use super::super::sight::Sight;
 use super::super::sure::drop_unsure;
@@ -28,7 +28,7 @@ pub fn fit_group(
     sizes: &[KnownSize],
     settings: &FitSettings,
 ) -> Result<FoundBox, NotFitted> {
-    let coarse = coarse(settings);
+    let coarse = competing(settings);
     let mut best = Err(NotFitted::NoBox);
     let mut most = f64::NEG_INFINITY;
     for start in group {
@@ -97,18 +97,13 @@ fn finish(
 
 /// Motions of the further views' readings, level frame, that suit a box best which several of them saw: their places as it tells them.
 pub fn motions(sights: &[Sight], group: &[Sighting], settings: &FitSettings) -> Option<Vec<Isometry3<f64>>> {
-    let settings = coarse(settings);
+    let settings = competing(settings);
     let start = &group[0];
     let others = numbered_as(group, start.body());
     let (body, present) = best_flaps(sights, start.body(), &start.found.present, &others, COARSE_M);
     let solution = refit_labelled(sights, &body, &present, COARSE_M, COARSE_STRIDE, &settings).ok()?;
     let at = solution.body.input_from_object;
     Some(solution.motions.iter().map(|motion| at * motion * at.inverse()).collect())
-}
-
-/// While boxes and places are not yet known well.
-fn coarse(settings: &FitSettings) -> FitSettings {
-    FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }
 }
 
 fn numbered_as(group: &[Sighting], body: &FittedBody) -> Vec<(FittedBody, Present)> {
