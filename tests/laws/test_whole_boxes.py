@@ -32,3 +32,33 @@ def test_a_second_look_at_the_flaps_takes_nothing_away() -> None:
     (found,) = boxwright.infer(cloud_of(frame)).model.objects
     observed = {part.name for part in found.parts if part.observed}
     assert observed >= {"flap_0", "flap_1", "flap_2", "flap_3", "tuck_0"}
+
+
+def test_a_tuck_flap_in_the_plane_of_its_lid_is_told_from_it() -> None:
+    """It folds by 17 degrees: to a scan, which follows bends, lid and tuck flap are one board."""
+    (found,) = boxwright.infer(cloud_of(make_frame("cake", 501, 124))).model.objects
+    seen = {part.name for part in found.parts if part.observed}
+    (position_rad,) = (
+        joint.position for joint in found.joints if joint.child.startswith("tuck") and joint.child in seen
+    )
+    assert position_rad == pytest.approx(np.radians(17.0), abs=0.15)
+
+
+def test_four_short_flaps_make_no_tote() -> None:
+    """A tote's lip is as short, but leaves its rim everywhere alike."""
+    (found,) = boxwright.infer(cloud_of(make_frame("large", 501, 254))).model.objects
+    assert found.template == "carton"
+    assert sum(part.observed for part in found.parts if part.name.startswith("flap")) == 4
+
+
+def test_a_box_is_told_whose_fit_to_all_readings_does_not_end() -> None:
+    model = boxwright.infer(cloud_of(make_frame("medium", 501, 151))).model
+    assert len(model.objects) == 2
+    (line,) = (line for line in model.warnings if "fewer of its readings" in line)
+    assert line.startswith("object 1")
+
+
+def test_boxes_that_lie_close_are_chosen_together() -> None:
+    """Taken one by one, a body across two of these three boxes won over both."""
+    model = boxwright.infer(cloud_of(make_frame("small", 501, 282))).model
+    assert len(model.objects) == 3

@@ -23,3 +23,47 @@ pub fn may_be_closed(found: &FoundBox) -> bool {
     let in_plane = |k: usize| (body.get(layout::flap(k) + layout::FLAP_ANGLE) - FRAC_PI_2).abs() < IN_PLANE_RAD;
     inner + base < LEAST_INSIDE && through < amount(LEAST_INSIDE) && (0..4).filter(|&k| is_seen(k)).all(in_plane)
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, Isometry3};
+
+    use super::super::evidence::Evidence;
+    use super::super::surfaces::{Labels, Present};
+    use super::*;
+    use crate::fit::{FittedBody, Parameters, Solution};
+
+    /// A side and a flap on it under an angle, with readings on the base, on inner faces and through the opening.
+    fn found(angle_rad: f64, base: usize, inner: f64, through: f64) -> FoundBox {
+        let mut numbers = Parameters::zeros();
+        numbers[layout::flap(1) + layout::FLAP_ANGLE] = angle_rad;
+        let body = FittedBody { input_from_object: Isometry3::identity(), numbers };
+        let parts = vec![(Role::Base, vec![0; base]), (Role::Side(1), vec![0; 900]), (Role::Flap(1), vec![0; 900])];
+        FoundBox {
+            solution: Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() },
+            present: Present { flaps: [false, true, false, false], tucks: [false; 4] },
+            labels: Labels { parts, stride: 1 },
+            evidence: vec![(Role::Side(3), Evidence { met: inner, is_inner: true, ..Evidence::default() })],
+            score: 1800.0,
+            probability: 1.0,
+            size: None,
+            of_fewer: None,
+            features: vec![("looked_inside", amount(through))],
+            part_features: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn an_inside_or_a_flap_out_of_its_sides_plane_tells_an_open_box() {
+        assert!(may_be_closed(&found(FRAC_PI_2 + 0.1, 0, 0.0, 0.0)));
+        assert!(may_be_closed(&found(FRAC_PI_2, 40, 40.0, 80.0)));
+        for open in [
+            found(FRAC_PI_2 + 0.4, 0, 0.0, 0.0),
+            found(FRAC_PI_2, 200, 0.0, 0.0),
+            found(FRAC_PI_2, 0, 200.0, 0.0),
+            found(FRAC_PI_2, 0, 0.0, 200.0),
+        ] {
+            assert!(!may_be_closed(&open), "{open:?}");
+        }
+    }
+}

@@ -29,6 +29,8 @@ pub struct FoundBox {
     pub probability: f64,
     /// The given size that comes nearest; of a finished box, the one that it has.
     pub size: Option<SizeMatch>,
+    /// Why the fit to all of its readings did not end, where its body is that of fewer.
+    pub of_fewer: Option<NotFitted>,
     pub features: Features,
     pub part_features: Vec<(Role, Features)>,
 }
@@ -79,17 +81,22 @@ pub fn finish(
         None => (body, present),
     };
     drop_unsure(sight, &body, &mut labels);
-    let fitted = refit(sight, &body, &present, &labels, settings).and_then(sound_solution);
-    // Where all its readings lead to no body, fewer do, as they did before.
-    let solution = fitted.or_else(|_| {
-        let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
-        drop_unsure(sight, &body, &mut labels);
-        refit(sight, &body, &present, &labels, &competing(settings)).and_then(sound_solution)
-    })?;
+    let fit = |labels: &Labels, settings: &FitSettings| {
+        refit(sight, &body, &present, labels, settings).and_then(sound_solution)
+    };
+    // Where all its readings lead to no body, fewer do, as they did before; that is told.
+    let (solution, of_fewer) = match fit(&labels, settings) {
+        Ok(solution) => (solution, None),
+        Err(why) => {
+            let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
+            drop_unsure(sight, &body, &mut labels);
+            (fit(&labels, &competing(settings))?, Some(why))
+        }
+    };
     let (solution, present) = look_again(sight, solution, present, settings);
     let (solution, size) = with_known_size(solution, sizes, settings.seen_scale.dimension);
     sound(&solution.body)?;
-    let mut out = FoundBox { size, ..weigh(sight, solution, present, 1) };
+    let mut out = FoundBox { size, of_fewer, ..weigh(sight, solution, present, 1) };
     out.features = features::of_box(sight, owners, &out);
     let of = |(role, evidence): &(Role, Evidence)| {
         let points = out.labels.of(*role);
@@ -178,6 +185,7 @@ pub fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize)
         score,
         probability: 1.0,
         size: None,
+        of_fewer: None,
         features: Vec::new(),
         part_features: Vec::new(),
     }

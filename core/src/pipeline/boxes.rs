@@ -79,6 +79,7 @@ fn lines(refused: &[Refused], first: &Sight) -> Vec<String> {
 fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Telling) -> Option<Refusal> {
     let Telling { templates, kinds, judgement, sizes, settings } = telling;
     let shape = Shape::of_found(one);
+    // Some template is an open box, so one is chosen and tells it.
     let (number, probability) = kinds.choose(&shape, templates)?;
     let told = open_box::answer(one, templates[number], probability, sights, sizes, settings, *judgement);
     let (object, parts) = told?;
@@ -91,6 +92,10 @@ fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Tel
     let seen = object.parts.iter().filter(|part| part.observed).count();
     if seen < LEAST_PANELS {
         return Some(Refusal::FewPanels { seen, least: LEAST_PANELS });
+    }
+    if let Some(why) = &one.of_fewer {
+        let number = answer.objects.len();
+        answer.warnings.push(format!("object {number}: its body is fitted to fewer of its readings: of all, {why}"));
     }
     for (part, points) in parts {
         for point in points {
