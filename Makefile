@@ -121,7 +121,10 @@ weights-fitted:
 		--method exact -o $(WEIGHTS)/exact/tote.json
 	$(BIN)/boxwright synth $(SETS)/judge --count 360 --seed 503
 	$(BIN)/boxwright synth $(SETS)/judge_none --count 160 --seed 504 --category none
-	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none --method fitted -o $(WEIGHTS)/fitted/judgement.json
+	$(BIN)/boxwright synth $(SETS)/judge_2 --count 360 --seed 505
+	$(BIN)/boxwright synth $(SETS)/judge_none_2 --count 107 --seed 506 --category none
+	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none $(SETS)/judge_2 $(SETS)/judge_none_2 \
+		--method fitted -o $(WEIGHTS)/fitted/judgement.json
 	$(BIN)/python -m benchmarks.kinds $(SETS)/judge $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 	$(BIN)/python -m benchmarks.coverage $(SETS)/judge --scales
 

@@ -25,9 +25,9 @@ fn is_told(present: &Present, role: Role, end: usize) -> bool {
     }
 }
 
-/// Of the free edges of a flap or tuck flap, the share beyond which its surface goes on: it is no panel of its own.
+/// Of the free edges of a panel but the base, the share beyond which its surface goes on: it is no panel of its own.
 pub fn goes_on(sight: &Sight, body: &FittedBody, present: &Present, role: Role) -> f64 {
-    if !matches!(role, Role::Flap(_) | Role::Tuck(_)) {
+    if role == Role::Base {
         return 0.0;
     }
     let told: Vec<usize> = (0..4).filter(|&end| is_told(present, role, end)).collect();

@@ -5,6 +5,7 @@ use super::evidence::{Evidence, Sheet};
 use super::grow::{FoundBox, FINE_M};
 use super::lean::lean;
 use super::owners::Owners;
+use super::rims;
 use super::sight::Sight;
 use crate::fit::{layout, Role};
 
@@ -12,7 +13,7 @@ use crate::fit::{layout, Role};
 pub type Features = Vec<(&'static str, f64)>;
 
 /// Their names, in order.
-pub const BOX_FEATURES: [&str; 23] = [
+pub const BOX_FEATURES: [&str; 27] = [
     "one",
     "on_walls",
     "on_inner_faces",
@@ -36,6 +37,10 @@ pub const BOX_FEATURES: [&str; 23] = [
     "hidden_behind_flaps",
     "hidden_by_size",
     "lid_and_inside",
+    "rims_free",
+    "rims_go_on",
+    "rims_looked_through",
+    "sides_go_on",
 ];
 pub const PART_FEATURES: [&str; 14] = [
     "one",
@@ -114,6 +119,10 @@ pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
     let on_closed = amount(readings(&|role| matches!(role, Role::Flap(k) if !is_open(k))));
     let walls_hidden = share(walls.hidden, walls.met + walls.through);
     let flaps_seen = seen(&|role| matches!(role, Role::Flap(_)));
+    let sides_seen = seen(&|role| matches!(role, Role::Side(_)));
+    let seen_sides = panels.clone().filter(|(role, points)| matches!(role, Role::Side(_)) && !points.is_empty());
+    let sides_go_on: f64 = seen_sides.map(|(role, _)| goes_on(sight, body, &found.present, *role)).sum();
+    let [rims_free, rims_go_on, rims_through] = rims::shares(sight, body, &found.present);
     let (shorter_edge, height) = (l.min(w).max(0.01).ln(), h.max(0.01).ln());
     vec![
         ("one", 1.0),
@@ -125,7 +134,7 @@ pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
         ("on_closed_flaps", on_closed),
         ("looked_through", share(through, met)),
         ("walls_hidden", walls_hidden),
-        ("sides_seen", seen(&|role| matches!(role, Role::Side(_)))),
+        ("sides_seen", sides_seen),
         ("flaps_seen", flaps_seen),
         ("base_seen", seen(&|role| role == Role::Base)),
         ("shorter_edge", shorter_edge),
@@ -139,6 +148,10 @@ pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
         ("hidden_behind_flaps", walls_hidden * some(on_open)),
         ("hidden_by_size", shorter_edge * walls_hidden),
         ("lid_and_inside", on_closed * some(on_inner)),
+        ("rims_free", rims_free),
+        ("rims_go_on", rims_go_on),
+        ("rims_looked_through", rims_through),
+        ("sides_go_on", sides_go_on / sides_seen.max(1.0)),
     ]
 }
 

@@ -1,3 +1,5 @@
+use rayon::prelude::*;
+
 use super::choose::choose;
 use super::features;
 use super::flap_scan::ScannedFlap;
@@ -30,19 +32,20 @@ pub fn find(
 ) -> (Vec<FoundBox>, Vec<Refused>) {
     let owners = Owners::new(scene, sight.points.len());
     let mut shells = shells(sight, scene);
-    for shell in &mut shells {
+    // Each by itself, in their order: the same bits on any number of threads.
+    shells.par_iter_mut().for_each(|shell| {
         shell.flaps = scan_flaps(sight, &body_of(&shell.proposal), COARSE_M, COARSE_SCAN);
-        shell.score = shell.looked.score() + shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
+        shell.score = shell.of_walls() + shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
         shell.score *= share_of_score(best_match_within(outer_m(&shell.proposal), PROPOSED_SIGMA_M, sizes).as_ref());
-    }
+    });
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let grown = best_of_rivals(&shells).into_iter().filter_map(|shell| grow(sight, shell, settings));
     let judged = |one: &FoundBox| {
         let odds = |judgement: &Judgement| judgement.of_box(&features::of_box(sight, &owners, one)).0;
         judgement.map_or(1.0, |judgement| probability(odds(judgement)))
     };
     let weighed = |one: FoundBox| FoundBox { probability: judged(&one), size: best_match(&one.solution, sizes), ..one };
-    let found = grown.map(weighed).collect();
+    let rivals = best_of_rivals(&shells);
+    let found = rivals.into_par_iter().filter_map(|shell| grow(sight, shell, settings)).map(weighed).collect();
     let (mut out, mut refused) = (Vec::new(), Vec::new());
     for one in choose(found, sight.width) {
         let body = one.solution.body.clone();

@@ -24,6 +24,8 @@ mod proposal;
 mod recast;
 mod refit;
 mod refused;
+mod rim_lines;
+mod rims;
 mod settle;
 mod shape;
 mod shell;

@@ -26,6 +26,8 @@ struct Place {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ShownBy {
     Wall(usize),
+    /// Its upper edge alone.
+    Rim(usize),
     /// A flap that hangs on it.
     Flap(usize),
     /// Where walls across end.
@@ -40,13 +42,15 @@ pub const HEIGHTS_M: [f64; 2] = [0.025, 0.8];
 pub const LEAST_COS: f64 = 0.985;
 /// Places nearer than this are one.
 const SAME_M: f64 = 0.008;
+/// A rim stands where its wall does; what is within the box near a wall has none.
+const SAME_RIM_PLACE_M: f64 = 0.004;
 /// A wall reaches this far, or this share of it, beyond its neighbours: what is more belongs to something else.
 const OVERHANG_M: f64 = 0.03;
 const OVERHANG_SHARE: f64 = 0.25;
 /// A wall is seen over at least this share of its width.
 const LEAST_COVER: f64 = 0.2;
 /// Proposals for each direction, and rims for each of them, at most.
-const MOST: usize = 400;
+const MOST: usize = 600;
 const MOST_RIMS: usize = 5;
 const SAME_RIM_M: f64 = 0.010;
 /// A panel's readings count up to here.
@@ -54,12 +58,18 @@ pub const MOST_READINGS: f64 = 6000.0;
 /// A flap shows a wall's place less well.
 pub const OF_FLAPS: f64 = 0.5;
 
-/// All that patches propose for boxes that stand in this direction.
-pub fn proposals(patches: &[Patch], frame: &[Vec3; 3], yaw: f64) -> Vec<Proposal> {
+/// The frame turned about its third axis.
+pub fn turned([x, y, up]: &[Vec3; 3], yaw: f64) -> [Vec3; 3] {
     let (sin, cos) = yaw.sin_cos();
-    let [x, y, up] = frame;
-    let axes = [x * cos + y * sin, y * cos - x * sin, *up];
-    let found = [0, 1].map(|a| pairs(patches, &axes, a));
+    [x * cos + y * sin, y * cos - x * sin, *up]
+}
+
+/// All that patches, and rims as the walls below them, propose for boxes that stand in this direction.
+pub fn proposals(patches: &[Patch], rims: &[Patch], frame: &[Vec3; 3], yaw: f64) -> Vec<Proposal> {
+    let axes = turned(frame, yaw);
+    let first_rim = patches.len();
+    let patches = &[patches, rims].concat();
+    let found = [0, 1].map(|a| pairs(patches, first_rim, &axes, a));
     let mut plans: Vec<(f64, Proposal)> = Vec::new();
     for first in &found[0] {
         for second in &found[1] {
@@ -74,14 +84,15 @@ pub fn proposals(patches: &[Patch], frame: &[Vec3; 3], yaw: f64) -> Vec<Proposal
 /// Two opposite walls: low and high.
 type Pair = [Place; 2];
 
-fn pairs(patches: &[Patch], axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
+fn pairs(patches: &[Patch], first_rim: usize, axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
     let (axis, across, up) = (&axes[a], &axes[1 - a], &axes[2]);
     let [mut low, mut high]: [Vec<Place>; 2] = [Vec::new(), Vec::new()];
     for (number, patch) in patches.iter().enumerate() {
         if patch.is_upright(up) && patch.normal.dot(axis).abs() > LEAST_COS {
             let [from, to] = patch.span(axis);
             let at_m = (from + to) / 2.0;
-            let shown = |at_m: f64| Place { at_m, shown_by: ShownBy::Wall(number) };
+            let shown_by = if number < first_rim { ShownBy::Wall(number) } else { ShownBy::Rim(number) };
+            let shown = |at_m: f64| Place { at_m, shown_by };
             // Seen from outside it is the wall on the camera's side, from inside the one across.
             if patch.normal.dot(axis) > 0.0 {
                 low.push(shown(at_m - BOARD_M));
@@ -119,12 +130,16 @@ fn pairs(patches: &[Patch], axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
 
 /// Without those that lie where one lies that is shown better, or an earlier one.
 fn distinct(places: Vec<Place>) -> Vec<Place> {
-    let is_wall = |place: &&Place| matches!(place.shown_by, ShownBy::Wall(_));
-    let mut out: Vec<Place> = places.iter().filter(is_wall).copied().collect();
-    for by_flap in [true, false] {
-        for place in places.iter().filter(|place| !is_wall(place)) {
-            let is_flap = matches!(place.shown_by, ShownBy::Flap(_));
-            if is_flap == by_flap && out.iter().all(|other| (other.at_m - place.at_m).abs() > SAME_M) {
+    let rank = |place: &Place| match place.shown_by {
+        ShownBy::Wall(_) => 0,
+        ShownBy::Rim(_) => 1,
+        ShownBy::Flap(_) => 2,
+        ShownBy::Nothing => 3,
+    };
+    let mut out: Vec<Place> = places.iter().filter(|place| rank(place) == 0).copied().collect();
+    for (wanted, same_m) in [(1, SAME_RIM_PLACE_M), (2, SAME_M), (3, SAME_M)] {
+        for place in &places {
+            if rank(place) == wanted && out.iter().all(|other| (other.at_m - place.at_m).abs() > same_m) {
                 out.push(*place);
             }
         }
@@ -138,7 +153,7 @@ fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
     let (mut walls, mut flaps, mut shown, mut by_flaps, mut lowest) = (0, 0, 0.0, 0.0, f64::INFINITY);
     for wall in 0..4 {
         let (number, is_wall) = match pairs[wall / 2][wall % 2].shown_by {
-            ShownBy::Wall(number) => (number, true),
+            ShownBy::Wall(number) | ShownBy::Rim(number) => (number, true),
             ShownBy::Flap(number) => (number, false),
             ShownBy::Nothing => continue,
         };

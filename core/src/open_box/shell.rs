@@ -40,16 +40,9 @@ pub struct Rays {
 
 /// The rays, and the eye, along the directions that many boxes share.
 pub struct RaysAlong {
-    axes: [Vec3; 3],
     eye: [f64; 3],
     /// With their inverses.
     rays: Vec<([f64; 3], [f64; 3])>,
-}
-
-impl RaysAlong {
-    pub fn is_of(&self, proposal: &Proposal) -> bool {
-        self.axes == [proposal.axes[0], proposal.axes[1], proposal.up]
-    }
 }
 
 impl Rays {
@@ -73,7 +66,7 @@ impl Rays {
         let axes = [proposal.axes[0], proposal.axes[1], proposal.up];
         let of = |v: &Vec3| axes.each_ref().map(|axis| v.dot(axis));
         let ray = |v: &Vec3| (of(v), of(v).map(|along| 1.0 / along));
-        RaysAlong { axes, eye: of(&sight.eye), rays: self.to_reading.iter().map(ray).collect() }
+        RaysAlong { eye: of(&sight.eye), rays: self.to_reading.iter().map(ray).collect() }
     }
 
     /// Looks at a box's shell; `turned` are the rays along its directions.

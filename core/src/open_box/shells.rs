@@ -1,13 +1,18 @@
 //! The proposals that are worth a closer look.
 
+use rayon::prelude::*;
+
 use super::flap_scan::ScannedFlap;
 use super::lids::of_lids;
 use super::patch::Patch;
-use super::proposal::{proposals, Proposal, OF_FLAPS};
-use super::shell::{Rays, RaysAlong, ShellLook};
+use super::proposal::{proposals, turned, Proposal, OF_FLAPS};
+use super::rim_lines::{edge_points, walls_of_rims, yaws_of_edges};
+use super::rims::{self, OnRims};
+use super::shell::{Rays, ShellLook};
 use super::sight::Sight;
+use super::start::body_of;
 use super::upright::ways_up;
-use super::yaw::yaws;
+use super::yaw::{near, yaws};
 use crate::geometry::Vec3;
 use crate::perception::Scene;
 
@@ -20,26 +25,28 @@ const MOST_SHELLS: usize = 140;
 pub struct Shell {
     pub proposal: Proposal,
     pub looked: ShellLook,
+    /// What the rims say.
+    pub on_rims: OnRims,
     pub score: f64,
     pub flaps: [Option<ScannedFlap>; 4],
+}
+
+impl Shell {
+    /// What walls and rims say, without the flaps.
+    pub fn of_walls(&self) -> f64 {
+        self.looked.score() + self.on_rims.pixels + self.on_rims.open * self.looked.lid
+    }
 }
 
 /// Proposals that the rays bear out, distinct, best first.
 pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
     let patches = Patch::of_things(scene, sight);
     let rays = Rays::new(sight);
-    let mut all = Vec::new();
-    let mut turned: Option<RaysAlong> = None;
-    for proposal in all_proposals(&patches) {
-        // Proposals come by their directions.
-        let along = turned.take().filter(|rays| rays.is_of(&proposal)).unwrap_or_else(|| rays.along(sight, &proposal));
-        let looked = rays.look(sight, &proposal, &along);
-        turned = Some(along);
-        let score = looked.score() + OF_FLAPS * proposal.on_flaps;
-        if score > LEAST_SCORE {
-            all.push(Shell { proposal, looked, score, flaps: [None; 4] });
-        }
-    }
+    let proposed = all_proposals(&patches, &edge_points(sight));
+    // Proposals come by their directions.
+    let of_one_direction: Vec<&[Proposal]> = proposed.chunk_by(|a, b| a.axes == b.axes && a.up == b.up).collect();
+    let look = |proposals: &&[Proposal]| borne_out(sight, &rays, proposals);
+    let mut all: Vec<Shell> = of_one_direction.par_iter().flat_map_iter(look).collect();
     all.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut out: Vec<Shell> = Vec::new();
     for shell in all {
@@ -54,17 +61,40 @@ pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
     out
 }
 
-fn all_proposals(patches: &[Patch]) -> Vec<Proposal> {
+/// Of proposals that share their directions those that the rays bear out.
+fn borne_out(sight: &Sight, rays: &Rays, proposals: &[Proposal]) -> Vec<Shell> {
+    let Some(first) = proposals.first() else { return Vec::new() };
+    let along = rays.along(sight, first);
+    let mut out = Vec::new();
+    for proposal in proposals {
+        let looked = rays.look(sight, proposal, &along);
+        if looked.score() + OF_FLAPS * proposal.on_flaps <= LEAST_SCORE {
+            continue;
+        }
+        let on_rims = rims::of_body(sight, &body_of(proposal));
+        let shell = Shell { proposal: proposal.clone(), looked, on_rims, score: 0.0, flaps: [None; 4] };
+        out.push(Shell { score: shell.of_walls() + OF_FLAPS * proposal.on_flaps, ..shell });
+    }
+    out
+}
+
+fn all_proposals(patches: &[Patch], edges: &[Vec3]) -> Vec<Proposal> {
     let mut out = Vec::new();
     for up in ways_up(patches) {
         let x = (Vec3::x() - up * up.x).normalize();
         let frame = [x, up.cross(&x), up];
-        for yaw in yaws(patches, &frame) {
-            out.extend(proposals(patches, &frame, yaw));
-            // A lid does not tell how deep a leaning box reaches.
-            if up == Vec3::z() {
-                out.extend(of_lids(patches, &frame, yaw));
-            }
+        let of_patches = yaws(patches, &frame);
+        // Rims are level where the box is; a lid does not tell how deep a leaning box reaches.
+        if up != Vec3::z() {
+            out.extend(of_patches.iter().flat_map(|&yaw| proposals(patches, &[], &frame, yaw)));
+            continue;
+        }
+        let is_new = |yaw: &f64| of_patches.iter().all(|other| !near(*yaw, *other));
+        let of_edges: Vec<f64> = yaws_of_edges(edges).into_iter().filter(is_new).collect();
+        for &yaw in of_patches.iter().chain(&of_edges) {
+            let rims = walls_of_rims(edges, &turned(&frame, yaw));
+            out.extend(proposals(patches, &rims, &frame, yaw));
+            out.extend(of_lids(patches, &frame, yaw));
         }
     }
     out

@@ -49,11 +49,11 @@ fn vote(patch: &Patch, frame: &[Vec3; 3]) -> Option<(f64, f64)> {
 }
 
 /// The shorter way from b to a, of directions that a quarter turn leaves alike.
-fn difference(a: f64, b: f64) -> f64 {
+pub fn difference(a: f64, b: f64) -> f64 {
     (a - b + FRAC_PI_2 / 2.0).rem_euclid(FRAC_PI_2) - FRAC_PI_2 / 2.0
 }
 
-fn near(a: f64, b: f64) -> bool {
+pub fn near(a: f64, b: f64) -> bool {
     difference(a, b).abs() < SAME_RAD
 }
 

@@ -18,7 +18,7 @@ from boxwright.models import load_object_model
 from boxwright.parallel import ordered_map
 from boxwright.types.model import Object
 
-RIDGE = 0.5
+RIDGE = 2.0
 """Weight of the squared coefficients, of features scaled to a spread of 1, against one example."""
 STEPS = 60
 RIGHT_SHARE = 0.25
