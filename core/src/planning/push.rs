@@ -79,6 +79,7 @@ impl<G: Guard> Pusher<'_, G> {
             status: Status::OutOfTime,
             reason: "no search was allowed".into(),
             by_flaps: false,
+            at_start: false,
             moves_box: false,
             searched: true,
         }))
@@ -187,7 +188,7 @@ impl<G: Guard> Pusher<'_, G> {
             _ => false,
         });
         let moves_box = tally.any(|obstacle| *obstacle == Obstacle::Moves);
-        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, moves_box, searched: true }
+        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, at_start, moves_box, searched: true }
     }
 }
 
