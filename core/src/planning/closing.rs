@@ -193,7 +193,9 @@ impl<G: Guard> Closer<'_, G> {
         let short_rad = self.settings.short_on_others_rad;
         match first {
             // Arms that cannot follow the flap beyond closed may still lay it down.
-            Err(why) if hold_rad < 0.0 && !why.at_start => self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why),
+            Err(why) if hold_rad < 0.0 && !why.at_start => {
+                self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why)
+            }
             tried => tried,
         }
     }
@@ -293,8 +295,7 @@ impl<G: Guard> Way<'_, '_, G> {
         let closer = self.closer;
         let settings = closer.settings_of(flap);
         let step_rad = settings.joint_step_rad;
-        Transit { arm: closer.arm, guard: closer.guard, settings, moment: &moment, step_rad }
-            .way(&self.at, to, via)
+        Transit { arm: closer.arm, guard: closer.guard, settings, moment: &moment, step_rad }.way(&self.at, to, via)
     }
 
     fn add(&mut self, piece: Piece) {

@@ -121,7 +121,12 @@ impl<'a> Contacts<'a> {
             + (0.7 - into_face).max(0.0).powi(2)
             + (-into_face).max(0.0)
             + STRAIN_WEIGHT * strain.powi(2);
-        Some(Grip { base_from_tool: Rigid::new(*base_from_tool, frame.at(tool.x, tool.y, tool.z)), contact, strain, penalty })
+        Some(Grip {
+            base_from_tool: Rigid::new(*base_from_tool, frame.at(tool.x, tool.y, tool.z)),
+            contact,
+            strain,
+            penalty,
+        })
     }
 
     /// Of a push square to the face at a lever that overcomes crease and weight; 0 where the flap falls by itself.

@@ -32,7 +32,14 @@ pub struct Known {
 
 impl Known {
     /// What became of a push, which is planned where it is not known.
-    pub fn push(&self, flap: usize, widened: usize, moment: &Moment, force: Force, plan: impl FnOnce() -> Tried) -> Tried {
+    pub fn push(
+        &self,
+        flap: usize,
+        widened: usize,
+        moment: &Moment,
+        force: Force,
+        plan: impl FnOnce() -> Tried,
+    ) -> Tried {
         let angles = moment.angles_rad.iter().map(|angle_rad| angle_rad.to_bits()).collect();
         let key = (flap, widened, angles, force);
         if let Some(known) = self.tried.borrow().get(&key) {

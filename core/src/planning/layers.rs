@@ -129,9 +129,8 @@ impl<G: Guard> Layers<'_, G> {
         let turned = near.iter().map(|&(orientation, angle_rad)| (state.place, orientation, 0.3 * angle_rad));
         let slid = self.places_beside(state.place).map(|place| (place, state.orientation, SLIDE_COST));
         for (place, orientation, change) in turned.chain(slid) {
-            let known = memory.of_pose(place, orientation, || {
-                self.reached(layer, place, orientation, Some(&state.positions), tally)
-            });
+            let known = memory
+                .of_pose(place, orientation, || self.reached(layer, place, orientation, Some(&state.positions), tally));
             let Some(pose) = known else { continue };
             let drag = if place == state.place { 0.0 } else { pose.grip.strain };
             let moved = state.cost + 0.3 * pose.grip.penalty + drag + change;

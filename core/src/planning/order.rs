@@ -101,8 +101,8 @@ struct Search<'a, 'b, G: Guard> {
     known: HashMap<(usize, u32), Tried>,
     best: Vec<usize>,
     wanted: usize,
-    /// Flaps that nothing but themselves, the arm and what stands still keeps open.
-    hopeless: Vec<usize>,
+    /// Flaps that nothing but themselves, the arm and what stands still keeps open, and why.
+    hopeless: Vec<(usize, WhyNot)>,
     /// For each flap, in the problem's order: how many searches of the arm's ways found none.
     searches: Vec<usize>,
 }
@@ -138,6 +138,9 @@ impl<G: Guard> Search<'_, '_, G> {
 
     /// Why a flap cannot be closed after those of an order, or before any.
     fn why_not(&self, flap: usize, order: &[usize]) -> Option<WhyNot> {
+        if let Some((_, why)) = self.hopeless.iter().find(|(hopeless, _)| *hopeless == flap) {
+            return Some(why.clone());
+        }
         let sets = (0..=order.len()).rev().map(|count| closed_set(&order[..count]));
         let mut tried = sets.filter_map(|set| self.known.get(&(flap, set)));
         tried.find_map(|tried| tried.as_ref().err().cloned())
@@ -150,7 +153,7 @@ impl<G: Guard> Search<'_, '_, G> {
     }
 
     fn can_push(&mut self, flap: usize, before: &[usize], angles_rad: &[f64]) -> bool {
-        if self.hopeless.contains(&flap) {
+        if self.hopeless.iter().any(|(hopeless, _)| *hopeless == flap) {
             return false;
         }
         let key = (flap, closed_set(before));
@@ -159,7 +162,7 @@ impl<G: Guard> Search<'_, '_, G> {
             if let Err(why) = &tried {
                 self.searches[flap] += usize::from(why.searched);
                 if !why.by_flaps || self.searches[flap] >= MOST_SEARCHES {
-                    self.hopeless.push(flap);
+                    self.hopeless.push((flap, why.clone()));
                 }
             }
             self.known.insert(key, tried);

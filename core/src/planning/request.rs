@@ -112,7 +112,12 @@ impl Request {
                 conflicts.into_iter().map(|conflict| (conflict.flap, conflict.obstacle)).collect();
             flaps.dedup_by(|a, b| a.0 == b.0);
             for (name, obstacle) in flaps {
-                match problem.flaps.iter().position(|flap| flap.name == name).filter(|&flap| widened[flap] < wider.len()) {
+                match problem
+                    .flaps
+                    .iter()
+                    .position(|flap| flap.name == name)
+                    .filter(|&flap| widened[flap] < wider.len())
+                {
                     Some(flap) => widened[flap] += 1,
                     None => left_open.push((name, obstacle)),
                 }

@@ -91,6 +91,9 @@ pub struct PlanningSettings {
 pub struct FineContacts {
     pub contact_step_m: f64,
     pub most_contacts: [usize; 2],
+    /// The finger may stand half over an end of the flap, or over its free edge: it touches with a side of its tip then.
+    pub contact_inset_m: f64,
+    pub contact_beyond_m: f64,
     pub least_lever: f64,
     pub most_lean: f64,
     pub least_hook_m: f64,
@@ -98,15 +101,32 @@ pub struct FineContacts {
 
 impl Default for FineContacts {
     fn default() -> Self {
-        Self { contact_step_m: 0.02, most_contacts: [13, 9], least_lever: 0.2, most_lean: 0.85, least_hook_m: 0.010 }
+        Self {
+            contact_step_m: 0.02,
+            most_contacts: [13, 9],
+            contact_inset_m: -0.008,
+            contact_beyond_m: 0.006,
+            least_lever: 0.2,
+            most_lean: 0.85,
+            least_hook_m: 0.010,
+        }
     }
 }
 
 impl PlanningSettings {
     /// With the fine contacts in the place of the others.
     pub fn with_fine_contacts(&self) -> Self {
-        let FineContacts { contact_step_m, most_contacts, least_lever, most_lean, least_hook_m } = self.fine_contacts;
-        Self { contact_step_m, most_contacts, least_lever, most_lean, least_hook_m, ..self.clone() }
+        let fine = &self.fine_contacts;
+        Self {
+            contact_step_m: fine.contact_step_m,
+            most_contacts: fine.most_contacts,
+            contact_inset_m: fine.contact_inset_m,
+            contact_beyond_m: fine.contact_beyond_m,
+            least_lever: fine.least_lever,
+            most_lean: fine.most_lean,
+            least_hook_m: fine.least_hook_m,
+            ..self.clone()
+        }
     }
 }
 

@@ -43,13 +43,13 @@ impl Finger {
             rotation * Vec3::new(x, y, z)
         })
     }
-
 }
 
 impl TurnedFinger {
     pub fn new(finger: Finger, flap_from_tool: Matrix3<f64>) -> Self {
         let corners = finger.corners(&flap_from_tool);
-        let furthest = corners[1..].iter().fold(corners[0], |best, corner| if corner.z < best.z { *corner } else { best });
+        let furthest =
+            corners[1..].iter().fold(corners[0], |best, corner| if corner.z < best.z { *corner } else { best });
         Self { finger, flap_from_tool, corners, furthest }
     }
 
