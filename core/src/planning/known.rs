@@ -56,3 +56,34 @@ impl Known {
         self.seconds.borrow().get(&flap).copied().unwrap_or(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::reason::Obstacle;
+    use super::*;
+
+    #[test]
+    fn a_push_is_planned_once_for_its_flap_margins_angles_and_force() {
+        let known = Known::default();
+        let planned = std::cell::Cell::new(0);
+        let ask = |flap: usize, widened: usize, angle_rad: f64, force: Force| {
+            let tried = known.push(flap, widened, &Moment::resting(&[angle_rad]), force, || {
+                planned.set(planned.get() + 1);
+                Err(WhyNot::by_boards(&Obstacle::Something))
+            });
+            assert!(tried.is_err());
+        };
+        let asked = [
+            (0, 0, 1.0, Force::Careful),
+            (1, 0, 1.0, Force::Careful),
+            (0, 1, 1.0, Force::Careful),
+            (0, 0, 1.5, Force::Careful),
+        ];
+        for (flap, widened, angle_rad, force) in asked.into_iter().chain([(0, 0, 1.0, Force::Home)]) {
+            ask(flap, widened, angle_rad, force);
+            ask(flap, widened, angle_rad, force);
+        }
+        assert_eq!(planned.get(), 5);
+        assert!(known.seconds(0) > 0.0 && known.seconds(2) == 0.0);
+    }
+}
