@@ -248,7 +248,7 @@ mod tests {
         let upright = std::f64::consts::FRAC_PI_2;
         let meets = |neighbour_rad: f64| met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings);
         assert!(meets(0.05).is_none());
-        let Some(Obstacle::Boards { other, .. }) = meets(0.255) else { panic!("it jams") };
+        let Some(Obstacle::Boards { other, .. }) = meets(0.35) else { panic!("it jams") };
         assert_eq!(other, "flap_1");
     }
 }
