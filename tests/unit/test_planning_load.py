@@ -14,7 +14,7 @@ from boxwright.types import Plan
 
 ROBOT = "viper_s850"
 LIGHT = (18, 156)
-"""Small boxes with short flaps that the arm reaches and that take more than holds the box: pushed regardless, they slide."""
+"""Small boxes with short flaps that the arm reaches and that take more than holds the box: pushed, they slide."""
 SMALL = 0
 """One none of whose flaps can be pushed where it weighs 0.2 kg."""
 
