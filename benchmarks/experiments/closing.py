@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 from benchmarks.closing.__main__ import record_of
-from benchmarks.closing.problems import COUNT, REPORT_SEED, SEED
+from benchmarks.closing.problems import COUNT, LATER_SEEDS, REPORT_SEED, SEED
 from benchmarks.closing.record import CREASES, WAYS, FlapRecord, Limits, Record, limits_path
 from benchmarks.experiments.lab import Lab
 from benchmarks.experiments.report import Cell, Report, Table
@@ -52,9 +52,9 @@ def report(found: list[Record], limits: dict[int, Limits]) -> Report:
     told = ", ".join(f"{way} {count}" for way, count in counts.items() if count)
     how = (
         "Here: boxes of a set that `benchmarks/closing/problems.py` draws (every size, anywhere before the arm, "
-        f"flaps at 40 to 235 degrees) by seed {REPORT_SEED}, after the planner was tuned on that of seed {SEED}; the "
-        f"first of its {COUNT}: {told} (`python -m benchmarks.closing` measures them). `layered` is our planner, "
-        "`paper` that of 2011, "
+        f"flaps at 40 to 235 degrees) by seed {REPORT_SEED}, after the planner was tuned on those of seeds "
+        f"{', '.join(str(seed) for seed in (SEED, *LATER_SEEDS))}; the first of its {COUNT}: {told} "
+        "(`python -m benchmarks.closing` measures them). `layered` is our planner, `paper` that of 2011, "
         "both on true models; `seen` is ours on models inferred from one simulated frame each, `looking` the same with "
         "a look after each flap (`--replan`); physics closes the true box. Planners are told the class of creases. "
         "Planned, reached, held: share of open flaps with a plan; at 0 (within 2 degrees) while pushed; closed after "

@@ -13,8 +13,10 @@ from boxwright.simulation.physics import crease_class, simulate
 from boxwright.types import Plan
 
 ROBOT = "viper_s850"
-LIGHT = (0, 156)
-"""Small boxes with short flaps that the arm reaches and that take more than holds the box."""
+LIGHT = (18, 156)
+"""Small boxes with short flaps that the arm reaches and that take more than holds the box: pushed, they slide."""
+SMALL = 0
+"""One none of whose flaps can be pushed where it weighs 0.2 kg."""
 
 REGARDLESS = {"most_strain": 1e9}
 
@@ -37,11 +39,11 @@ def test_a_flap_that_would_move_the_box_is_told_and_physics_agrees() -> None:
             if name in regardless.order:
                 assert not careless.flaps[name].held, f"problem {number}: {name}"
                 counted += 1
-    assert counted == 4
+    assert counted == 3
 
 
 def test_a_heavy_box_bears_what_a_light_one_does_not() -> None:
-    problem = draw_problem(LIGHT[0])
+    problem = draw_problem(SMALL)
     box = measured_box(problem.model, 0, np.eye(4))
     figures = crease_class("ordinary")
     told: dict[str, Any] = {

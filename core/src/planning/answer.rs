@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use super::closing::{Closing, Kind, Piece};
+use super::closing::Closing;
 use super::guard::{Guard, Moment};
+use super::piece::{Kind, Piece};
 use super::problem::BoxProblem;
 use super::reason::{Obstacle, Status};
 use super::settings::PlanningSettings;

@@ -18,17 +18,6 @@ pub struct State {
     pub before: usize,
 }
 
-/// A state by what tells it apart from others of its layer.
-pub type Key = ([usize; 2], usize, u8, [i8; 2]);
-
-impl State {
-    pub fn key(&self) -> Key {
-        // Wraps of one branch differ by whole turns of the joints that turn widest.
-        let turn = |q: Option<&f64>| (q.copied().unwrap_or(0.0) / std::f64::consts::PI).floor() as i8;
-        (self.place, self.orientation, self.branch, [turn(self.positions.get(3)), turn(self.positions.last())])
-    }
-}
-
 /// The states of a layer so far, not too many of one orientation.
 pub struct Kept {
     pub states: Vec<State>,

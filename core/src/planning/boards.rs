@@ -15,7 +15,7 @@ const STEP_RAD: f64 = 0.06;
 /// The ends of a flap that has sprung up give way by this much to one that comes down beside them. Steeper than this it presses them
 /// aside rather than down: board on board has friction, and cannot slide where its tangent is steeper than 1 / friction.
 const GIVING_END_M: f64 = 0.015;
-const JAM_RAD: f64 = 1.15;
+const JAM_RAD: f64 = 1.2;
 /// Boards that meet this soon after the start met there already, by the model's error.
 const START_RAD: f64 = 0.09;
 
@@ -248,7 +248,7 @@ mod tests {
         let upright = std::f64::consts::FRAC_PI_2;
         let meets = |neighbour_rad: f64| met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings);
         assert!(meets(0.05).is_none());
-        let Some(Obstacle::Boards { other, .. }) = meets(0.255) else { panic!("it jams") };
+        let Some(Obstacle::Boards { other, .. }) = meets(0.35) else { panic!("it jams") };
         assert_eq!(other, "flap_1");
     }
 }

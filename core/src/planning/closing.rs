@@ -4,9 +4,11 @@ use super::boards::met;
 use super::contact::Contacts;
 use super::flap::Standing;
 use super::guard::{Guard, Moment};
+use super::known::{Force, Known, Tried};
 use super::load::Load;
 use super::order;
 use super::orientations::OrientationGrid;
+use super::piece::{Kind, Piece};
 use super::planes::PlanesSearch;
 use super::problem::BoxProblem;
 use super::push::{closed_finger, PushMotion, Pusher};
@@ -15,36 +17,6 @@ use super::request::Method;
 use super::settings::PlanningSettings;
 use super::transit::Transit;
 use crate::arm::{Arm, JointPositions};
-use crate::geometry::Vec3;
-
-/// What a piece of the arm's way is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    Transit,
-    Approach,
-    Push,
-    Retreat,
-}
-
-/// A piece of the way without times: postures with clear lines between them.
-#[derive(Debug, Clone)]
-pub struct Piece {
-    pub kind: Kind,
-    /// None in transit.
-    pub flap: Option<usize>,
-    pub positions: Vec<JointPositions>,
-    /// In a push: of each posture the hinge's angle, rad, and the point of touch, base frame.
-    pub hinge_rad: Vec<f64>,
-    pub contact: Vec<Vec3>,
-    /// Where all flaps are meanwhile, rad; in a push the pushed one moves.
-    pub angles_rad: Vec<f64>,
-}
-
-impl Piece {
-    fn new(kind: Kind, flap: Option<usize>, positions: Vec<JointPositions>, angles_rad: Vec<f64>) -> Self {
-        Self { kind, flap, positions, hinge_rad: Vec::new(), contact: Vec::new(), angles_rad }
-    }
-}
 
 /// What became of a flap.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,17 +42,6 @@ impl WhyNot {
     }
 }
 
-impl Kind {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Transit => "transit",
-            Self::Approach => "approach",
-            Self::Push => "push",
-            Self::Retreat => "retreat",
-        }
-    }
-}
-
 /// A closing without times.
 #[derive(Debug, Clone)]
 pub struct Closing {
@@ -98,6 +59,10 @@ pub struct Closer<'a, G: Guard> {
     pub problem: &'a BoxProblem,
     pub load: &'a Load,
     pub settings: &'a PlanningSettings,
+    /// The settings of flaps whose margins were widened, once, twice, and so on; and how often each was, in the problem's order.
+    pub wider: &'a [PlanningSettings],
+    pub widened: &'a [usize],
+    pub known: &'a Known,
     pub method: Method,
     /// The flaps to close, by name; all that are open where there are none.
     pub only: &'a [String],
@@ -130,9 +95,9 @@ impl<G: Guard> Closer<'_, G> {
             });
         }
         way.home(start);
-        for (outcome, seconds) in outcomes.iter_mut().zip(ordered.seconds) {
+        for (flap, outcome) in outcomes.iter_mut().enumerate() {
             if let Some(outcome) = outcome {
-                outcome.seconds = seconds;
+                outcome.seconds = self.known.seconds(flap);
             }
         }
         let unknown = || Outcome::new(Status::OutOfTime, "was not tried".into());
@@ -168,7 +133,11 @@ impl<G: Guard> Closer<'_, G> {
     ///
     /// # Errors
     /// The status and the reason why there is none.
-    pub fn push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
+    pub fn push(&self, flap: usize, moment: &Moment) -> Tried {
+        self.known.push(flap, self.widened[flap], moment, Force::Careful, || self.push_anew(flap, moment))
+    }
+
+    fn push_anew(&self, flap: usize, moment: &Moment) -> Tried {
         if self.method == Method::Paper {
             return self.paper_push(flap, moment);
         }
@@ -184,7 +153,9 @@ impl<G: Guard> Closer<'_, G> {
         let short_rad = self.settings.short_on_others_rad;
         match first {
             // Arms that cannot follow the flap beyond closed may still lay it down.
-            Err(why) if hold_rad < 0.0 => self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why),
+            Err(why) if hold_rad < 0.0 && !why.at_start => {
+                self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why)
+            }
             tried => tried,
         }
     }
@@ -198,20 +169,27 @@ impl<G: Guard> Closer<'_, G> {
         if meets || hold_rad > self.settings.most_propped_rad {
             return None;
         }
-        self.pusher(flap, moment, hold_rad, most_strain).plan().ok()
+        let plan = || self.pusher(flap, moment, hold_rad, most_strain).plan();
+        self.known.push(flap, self.widened[flap], moment, Force::Home, plan).ok()
+    }
+
+    /// A flap's settings, as wide as its margins are by now.
+    fn settings_of(&self, flap: usize) -> &PlanningSettings {
+        self.widened[flap].checked_sub(1).map_or(self.settings, |times| &self.wider[times])
     }
 
     fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
+        let settings = self.settings_of(flap);
         let half_board_m = self.problem.thickness_m / 2.0;
         Pusher {
             arm: self.arm,
             guard: self.guard,
-            settings: self.settings,
+            settings,
             contacts: Contacts::new(
                 &self.problem.flaps[flap],
                 closed_finger(self.arm),
                 half_board_m,
-                self.settings,
+                settings,
                 (self.load.folds[flap], self.load.stand.as_ref()),
                 OrientationGrid::coarse(),
             ),
@@ -226,7 +204,7 @@ impl<G: Guard> Closer<'_, G> {
     /// The paper's push, to closed and no further.
     fn paper_push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
         let pusher = self.pusher(flap, moment, 0.0, f64::INFINITY);
-        PlanesSearch { pusher: &pusher, settings: self.settings }.plan()
+        PlanesSearch { pusher: &pusher, settings: self.settings_of(flap) }.plan()
     }
 }
 
@@ -244,7 +222,7 @@ impl<G: Guard> Way<'_, '_, G> {
     /// one at hand no longer holds.
     fn close(&mut self, flap: usize, push: PushMotion) -> Result<f64, WhyNot> {
         let ready = self.closer.arm.ready;
-        let Some(transit) = self.transit(&push.approach[0], &ready) else {
+        let Some(transit) = self.transit(&push.approach[0], &ready, flap) else {
             return Err(WhyNot { by_flaps: false, ..WhyNot::by_boards(&Obstacle::NoWay { to: "to it" }) });
         };
         let resting = self.angles_rad.clone();
@@ -265,20 +243,19 @@ impl<G: Guard> Way<'_, '_, G> {
 
     /// Back to where the arm began, if there is a way: an arm that stays stands clear.
     fn home(&mut self, start: &JointPositions) {
-        if self.pieces.is_empty() {
-            return;
-        }
-        if let Some(transit) = self.transit(start, &self.closer.arm.ready.clone()) {
+        let Some(&last) = self.order.last() else { return };
+        if let Some(transit) = self.transit(start, &self.closer.arm.ready.clone(), last) {
             self.add(Piece::new(Kind::Transit, None, transit, self.angles_rad.clone()));
         }
     }
 
-    fn transit(&self, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
+    /// A way to or from a flap, with its margins.
+    fn transit(&self, to: &JointPositions, via: &JointPositions, flap: usize) -> Option<Vec<JointPositions>> {
         let moment = Moment::resting(&self.angles_rad);
         let closer = self.closer;
-        let step_rad = closer.settings.joint_step_rad;
-        Transit { arm: closer.arm, guard: closer.guard, settings: closer.settings, moment: &moment, step_rad }
-            .way(&self.at, to, via)
+        let settings = closer.settings_of(flap);
+        let step_rad = settings.joint_step_rad;
+        Transit { arm: closer.arm, guard: closer.guard, settings, moment: &moment, step_rad }.way(&self.at, to, via)
     }
 
     fn add(&mut self, piece: Piece) {

@@ -1,12 +1,12 @@
 //! How a finger may touch a flap: places on its outer face, tool orientations, and what is good about them.
 
-use nalgebra::UnitQuaternion;
+use nalgebra::{Matrix3, UnitQuaternion};
 
 use super::flap::{Flap, FlapFrame};
 use super::load::{Fold, Stand};
 use super::orientations::OrientationGrid;
 use super::settings::PlanningSettings;
-use super::touch::{flap_from_tool, Finger};
+use super::touch::{flap_from_tool, Finger, TurnedFinger};
 use crate::geometry::{Rigid, Vec3};
 
 /// A tool pose in which the finger touches the flap, and what speaks against it.
@@ -19,6 +19,14 @@ pub struct Grip {
     pub strain: f64,
     /// Eq. 85: 0 for a push on the middle of the free edge, square to the face; grows as the lever shortens and the tool leans.
     pub penalty: f64,
+}
+
+/// A finger's orientation before a flap at some angle.
+pub struct Turned {
+    base_from_tool: Matrix3<f64>,
+    finger: TurnedFinger,
+    /// The cosine between the tool's axis and the push direction.
+    into_face: f64,
 }
 
 /// The contacts of one flap with one finger.
@@ -81,18 +89,26 @@ impl<'a> Contacts<'a> {
     /// The tool pose at which a finger so turned, over the place `at` of the flap's plane, touches the flap at an angle. None where
     /// it misses the flap or holds it badly: too near its hinge, too near its own tip or end, or leaning too far over.
     pub fn grip(&self, frame: &FlapFrame, at: [f64; 2], base_from_tool: &UnitQuaternion<f64>) -> Option<Grip> {
-        let rotation = base_from_tool.to_rotation_matrix().into_inner();
-        let turned = flap_from_tool(frame, &rotation);
-        let into_face = -turned[(2, 2)];
-        if into_face < -self.settings.most_lean {
-            return None;
-        }
-        let touch = self.finger.touch(&self.flap.outline, self.half_board_m, at, &turned)?;
+        self.grip_turned(frame, at, &self.turned(frame, base_from_tool)?)
+    }
+
+    /// A finger so turned before a flap; None where it leans too far over.
+    pub fn turned(&self, frame: &FlapFrame, base_from_tool: &UnitQuaternion<f64>) -> Option<Turned> {
+        let base_from_tool = base_from_tool.to_rotation_matrix().into_inner();
+        let finger = TurnedFinger::new(self.finger, flap_from_tool(frame, &base_from_tool));
+        let into_face = -finger.flap_from_tool[(2, 2)];
+        (into_face >= -self.settings.most_lean).then_some(Turned { base_from_tool, finger, into_face })
+    }
+
+    /// As [`Contacts::grip`], of a finger that is turned already.
+    pub fn grip_turned(&self, frame: &FlapFrame, at: [f64; 2], turned: &Turned) -> Option<Grip> {
+        let Turned { base_from_tool, finger, into_face } = turned;
+        let touch = finger.touch(&self.flap.outline, self.half_board_m, at)?;
         let lever = touch.contact[1] / self.flap.length_m();
         let tool = Vec3::new(at[0], at[1], touch.tool_outward_m + self.settings.touch_gap_m);
         let contact = Vec3::new(touch.contact[0], touch.contact[1], self.half_board_m);
-        let from_tip_m = (tool - contact).dot(&turned.column(2));
-        let hooks = into_face < 0.0;
+        let from_tip_m = (tool - contact).dot(&finger.flap_from_tool.column(2));
+        let hooks = *into_face < 0.0;
         let held = from_tip_m >= self.settings.least_hook_m && from_tip_m <= self.finger.length_m - 0.01;
         if lever < self.settings.least_lever || (hooks && !held) {
             return None;
@@ -105,7 +121,12 @@ impl<'a> Contacts<'a> {
             + (0.7 - into_face).max(0.0).powi(2)
             + (-into_face).max(0.0)
             + STRAIN_WEIGHT * strain.powi(2);
-        Some(Grip { base_from_tool: Rigid::new(rotation, frame.at(tool.x, tool.y, tool.z)), contact, strain, penalty })
+        Some(Grip {
+            base_from_tool: Rigid::new(*base_from_tool, frame.at(tool.x, tool.y, tool.z)),
+            contact,
+            strain,
+            penalty,
+        })
     }
 
     /// Of a push square to the face at a lever that overcomes crease and weight; 0 where the flap falls by itself.

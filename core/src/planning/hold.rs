@@ -6,6 +6,9 @@ use super::flap::Standing;
 use super::guard::{Guard, Moment};
 use super::push::PushMotion;
 
+/// How far a flap that sprang up is pressed down again, between where it was held, where it lies on boards itself, and where its crease
+/// alone would let it go: chosen by what stacks of flaps do in physics.
+const PRESSED_SHARE: f64 = 0.5;
 /// Boards that cross at an edge crush it: what is left of their thickness there.
 const CRUSHED_SHARE: f64 = 0.4;
 
@@ -43,8 +46,9 @@ impl<G: Guard> Closer<'_, G> {
         let lies_over = |a: usize, b: usize| are_opposite(&flaps[a], &flaps[b]) && overlap_closed(&flaps[a], &flaps[b]);
         let stacked = |k: usize| lies_over(flap, k) || below.iter().any(|&other| lies_over(k, other));
         let props = below.iter().copied().filter(|&k| stacked(k)).map(|k| {
-            // Its crease gives back what it was pressed by.
-            let pressed_rad = (moment.angles_rad[k] - self.load.folds[k].return_rad).max(0.0);
+            let (fold, rest_rad) = (&self.load.folds[k], moment.angles_rad[k]);
+            let (held_rad, free_rad) = (fold.held_rad(rest_rad).max(0.0), (rest_rad - fold.return_rad).max(0.0));
+            let pressed_rad = held_rad + (free_rad - held_rad) * PRESSED_SHARE;
             let board_m = if are_opposite(&flaps[flap], &flaps[k]) { self.problem.thickness_m } else { 0.0 };
             let over_m = CRUSHED_SHARE * board_m;
             propped_rad(&flaps[flap], &flaps[k], pressed_rad, over_m)

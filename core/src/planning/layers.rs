@@ -1,17 +1,14 @@
 //! The layered search: hinge angle by hinge angle, which contact, tool orientation and posture of the arm pushes the flap along.
 
-use std::cell::RefCell;
-use std::collections::{BTreeMap, HashMap};
-use std::rc::Rc;
-
-use super::beam::{trace, Kept, Key, State};
+use super::beam::{trace, Kept, State};
 use super::contact::{Contacts, Grip};
 use super::guard::{Guard, Moment};
 use super::orientations::blend;
-use super::posture::{limit_penalty, nearest, out_of_reach};
+use super::posture::{nearest, out_of_reach};
+use super::reached::Memory;
 use super::reason::{Obstacle, Tally};
 use super::settings::PlanningSettings;
-use crate::arm::{Arm, JointPositions, Solutions};
+use crate::arm::{Arm, JointPositions};
 
 /// What a layer's search needs to know.
 #[derive(Clone, Copy)]
@@ -49,9 +46,6 @@ impl Found {
     }
 }
 
-type Reached = Option<Rc<(Grip, Solutions)>>;
-/// The poses of one layer that were asked for, by place and orientation.
-type Memory = RefCell<HashMap<([usize; 2], usize), Reached>>;
 impl<G: Guard> Layers<'_, G> {
     /// Searches with so many states kept in each layer. `starts` and `ends` say whether the arm can come to a first state, and leave
     /// a last one.
@@ -63,13 +57,14 @@ impl<G: Guard> Layers<'_, G> {
     ) -> Found {
         let mut tally = Tally::default();
         let mut layers = vec![self.first_layer(beam, starts, &mut tally)];
+        let mut memory = Memory::of(self.contacts);
         for layer in 1..self.angles_rad.len() {
             let last = layers.last().map_or(&[][..], |states| states.as_slice());
             if last.is_empty() {
                 return Found::Stuck { layer: layer - 1, tally };
             }
             tally = Tally::default();
-            let next = self.next_layer(layer, last, beam, &mut tally);
+            let next = self.next_layer(layer, last, beam, &mut memory, &mut tally);
             layers.push(next);
         }
         let last = self.angles_rad.len() - 1;
@@ -98,86 +93,29 @@ impl<G: Guard> Layers<'_, G> {
         [self.contacts.along_m[place[0]], self.contacts.away_m[place[1]]]
     }
 
-    /// The best first states, which the arm can come to.
-    fn first_layer(
+    /// The cheapest states that follow those of the layer before.
+    fn next_layer(
         &self,
+        layer: usize,
+        last: &[State],
         beam: usize,
-        starts: &mut dyn FnMut(&JointPositions, &Grip) -> Option<Obstacle>,
+        memory: &mut Memory,
         tally: &mut Tally,
     ) -> Vec<State> {
-        let memory = Memory::default();
-        let mut kept = Kept::new(START_WIDTH * beam, beam);
-        let mut tries = 0;
-        for (place, orientation) in self.grips_by_penalty() {
-            if kept.is_full() || tries > START_TRIES * beam {
-                break;
-            }
-            let Some(reached) = self.reached(0, place, orientation, None, &memory, tally) else { continue };
-            let (grip, solutions) = &*reached;
-            if solutions.is_empty() {
-                tally.add(out_of_reach(self.arm, &grip.base_from_tool));
-            }
-            for solution in solutions {
-                let state = State {
-                    place,
-                    orientation,
-                    positions: solution.positions,
-                    branch: solution.branch,
-                    cost: grip.penalty + limit_penalty(self.arm, &solution.positions),
-                    before: 0,
-                };
-                if !kept.has_room(&state) {
-                    continue;
-                }
-                tries += 1;
-                let conflict = self.conflict(&state.positions, self.angles_rad[0]);
-                match conflict.or_else(|| starts(&state.positions, grip)) {
-                    Some(obstacle) => tally.add(obstacle),
-                    None => kept.push(state),
-                }
-            }
-        }
-        kept.states
-    }
-
-    /// All contacts of the first layer, the best first.
-    fn grips_by_penalty(&self) -> Vec<([usize; 2], usize)> {
-        let frame = self.contacts.flap.frame(self.angles_rad[0]);
-        let mut found = Vec::new();
-        for orientation in 0..self.contacts.grid.size() {
-            let rotation = self.contacts.rotation(orientation);
-            for along in 0..self.contacts.along_m.len() {
-                for away in 0..self.contacts.away_m.len() {
-                    let place = [along, away];
-                    if let Some(grip) = self.contacts.grip(&frame, self.place_m(place), &rotation) {
-                        found.push((grip.penalty, place, orientation));
-                    }
-                }
-            }
-        }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
-        found.into_iter().map(|(_, place, orientation)| (place, orientation)).collect()
-    }
-
-    /// The cheapest states that follow those of the layer before.
-    fn next_layer(&self, layer: usize, last: &[State], beam: usize, tally: &mut Tally) -> Vec<State> {
-        let memory = Memory::default();
-        let mut candidates: BTreeMap<Key, State> = BTreeMap::new();
+        memory.forget();
         for (number, state) in last.iter().enumerate() {
-            self.follow(layer, number, state, &memory, &mut candidates, tally);
+            self.follow(layer, number, state, memory, tally);
         }
-        let mut ordered: Vec<(Key, State)> = candidates.into_iter().collect();
-        ordered.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost).then_with(|| a.0.cmp(&b.0)));
         let mut kept = Kept::new(beam, beam);
-        for (_, state) in ordered {
+        for state in memory.cheapest_first() {
             if kept.is_full() {
                 break;
             }
             if !kept.has_room(&state) {
                 continue;
             }
-            let between = self.between(layer, &last[state.before], &state);
-            match self.conflict(&state.positions, self.angles_rad[layer]).or(between) {
+            let between = || self.between(layer, &last[state.before], &state);
+            match self.conflict(&state.positions, self.angles_rad[layer]).or_else(between) {
                 Some(obstacle) => tally.add(obstacle),
                 None => kept.push(state),
             }
@@ -186,54 +124,27 @@ impl<G: Guard> Layers<'_, G> {
     }
 
     /// Adds what can follow a state: the same contact with a turned tool, or a contact beside it.
-    fn follow(
-        &self,
-        layer: usize,
-        number: usize,
-        state: &State,
-        memory: &Memory,
-        candidates: &mut BTreeMap<Key, State>,
-        tally: &mut Tally,
-    ) {
+    fn follow(&self, layer: usize, number: usize, state: &State, memory: &mut Memory, tally: &mut Tally) {
         let near = &self.contacts.grid.near[state.orientation];
         let turned = near.iter().map(|&(orientation, angle_rad)| (state.place, orientation, 0.3 * angle_rad));
         let slid = self.places_beside(state.place).map(|place| (place, state.orientation, SLIDE_COST));
         for (place, orientation, change) in turned.chain(slid) {
-            let near = Some(&state.positions);
-            let Some(reached) = self.reached(layer, place, orientation, near, memory, tally) else { continue };
-            let (grip, solutions) = &*reached;
-            if solutions.is_empty() {
-                tally.add(out_of_reach(self.arm, &grip.base_from_tool));
-            }
+            let known = memory
+                .of_pose(place, orientation, || self.reached(layer, place, orientation, Some(&state.positions), tally));
+            let Some(pose) = known else { continue };
+            let drag = if place == state.place { 0.0 } else { pose.grip.strain };
+            let moved = state.cost + 0.3 * pose.grip.penalty + drag + change;
             let mut follows = false;
-            for solution in solutions {
-                let turns = solution.positions.iter().zip(state.positions.iter()).map(|(a, b)| (a - b).abs());
+            for posture in &mut pose.postures {
+                let turns = posture.positions.iter().zip(state.positions.iter()).map(|(a, b)| (a - b).abs());
                 let (most, squares) = turns.fold((0f64, 0.0), |(most, sum), turn| (most.max(turn), sum + turn * turn));
                 if most > self.settings.most_turn_rad {
                     continue;
                 }
                 follows = true;
-                let drag = if place == state.place { 0.0 } else { grip.strain };
-                let cost = state.cost
-                    + 0.3 * grip.penalty
-                    + drag
-                    + change
-                    + 0.5 * squares
-                    + 0.3 * limit_penalty(self.arm, &solution.positions);
-                let next = State {
-                    place,
-                    orientation,
-                    positions: solution.positions,
-                    branch: solution.branch,
-                    cost,
-                    before: number,
-                };
-                let known = candidates.entry(next.key()).or_insert(next);
-                if cost < known.cost {
-                    *known = next;
-                }
+                posture.offer(moved + 0.5 * squares + 0.3 * posture.limit_penalty, number);
             }
-            if !follows && !solutions.is_empty() {
+            if !follows && !pose.postures.is_empty() {
                 tally.add(Obstacle::Jump);
             }
         }
@@ -244,48 +155,6 @@ impl<G: Guard> Layers<'_, G> {
         let beside =
             [[along.wrapping_sub(1), away], [along + 1, away], [along, away.wrapping_sub(1)], [along, away + 1]];
         beside.into_iter().filter(move |place| place[0] < size[0] && place[1] < size[1])
-    }
-
-    /// The pose of a contact in a layer and the arm's postures for it; None where the finger cannot touch the flap so.
-    fn reached(
-        &self,
-        layer: usize,
-        place: [usize; 2],
-        orientation: usize,
-        near: Option<&JointPositions>,
-        memory: &Memory,
-        tally: &mut Tally,
-    ) -> Reached {
-        if let Some(known) = memory.borrow().get(&(place, orientation)) {
-            return known.clone();
-        }
-        let frame = self.contacts.flap.frame(self.angles_rad[layer]);
-        let grip = self.contacts.grip(&frame, self.place_m(place), &self.contacts.rotation(orientation));
-        let moment = &self.moments[layer];
-        let bearable = grip.filter(|grip| {
-            let moves = grip.strain > self.most_strain;
-            if moves {
-                tally.add(Obstacle::Moves);
-            }
-            !moves
-        });
-        let clear =
-            bearable.filter(|grip| match self.guard.tool_conflict(&grip.base_from_tool, moment, self.clearance_m()) {
-                Some(obstacle) => {
-                    tally.add(obstacle);
-                    false
-                }
-                None => true,
-            });
-        let reached = clear.map(|grip| {
-            let solutions = match near {
-                Some(near) => self.arm.inverse_near(&grip.base_from_tool, near),
-                None => self.arm.inverse(&grip.base_from_tool),
-            };
-            Rc::new((grip, solutions))
-        });
-        memory.borrow_mut().insert((place, orientation), reached.clone());
-        reached
     }
 
     /// Half way between two layers.
@@ -308,11 +177,11 @@ impl<G: Guard> Layers<'_, G> {
         self.conflict(&positions, angle_rad)
     }
 
-    fn conflict(&self, positions: &JointPositions, angle_rad: f64) -> Option<Obstacle> {
+    pub fn conflict(&self, positions: &JointPositions, angle_rad: f64) -> Option<Obstacle> {
         self.guard.conflict(positions, &self.moment.pushing(self.flap, angle_rad), self.clearance_m())
     }
 
-    fn clearance_m(&self) -> f64 {
+    pub fn clearance_m(&self) -> f64 {
         self.settings.clearance_m + self.settings.search_margin_m
     }
 }
@@ -321,6 +190,3 @@ impl<G: Guard> Layers<'_, G> {
 const MOST_PATHS: usize = 24;
 /// What sliding to the contact beside costs, besides the strain there: a finger that slips drags the box with it.
 const SLIDE_COST: f64 = 0.15;
-/// The first layer is this much wider than the others, and so many postures are tried for it for each state that is kept.
-const START_WIDTH: usize = 2;
-const START_TRIES: usize = 100;

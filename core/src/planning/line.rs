@@ -83,7 +83,7 @@ impl<G: Guard> Lines<'_, G> {
         Err(why)
     }
 
-    /// The longest of the first lines out that lead far enough.
+    /// The first of the lines out that is clear to its end, else the longest of those that lead far enough.
     fn way_out(
         &self,
         from: &JointPositions,
@@ -93,17 +93,19 @@ impl<G: Guard> Lines<'_, G> {
     ) -> Result<Vec<JointPositions>, Obstacle> {
         let back = -Vec3::from(pose.rotation.column(2));
         let directions = [back, (back + frame.outward).normalize(), frame.outward, Vec3::z()];
-        let mut why = Obstacle::NoWay { to: "off the flap" };
+        let least = (LEAST_WAY_OUT * self.settings.withdraw_m / self.settings.line_step_m).floor() as usize;
+        let mut found = Err(Obstacle::NoWay { to: "off the flap" });
         for direction in directions {
             let (line, obstacle) = self.line(from, pose, &(direction * self.settings.withdraw_m), free);
-            let share = line.len() as f64 * self.settings.line_step_m / self.settings.withdraw_m;
-            match obstacle {
-                None => return Ok(line),
-                Some(_) if share > LEAST_WAY_OUT => return Ok(line),
-                Some(obstacle) => why = obstacle,
+            let Some(obstacle) = obstacle else { return Ok(line) };
+            let longest = found.as_ref().map_or(least, Vec::len);
+            if line.len() > longest {
+                found = Ok(line);
+            } else if found.is_err() {
+                found = Err(obstacle);
             }
         }
-        Err(why)
+        found
     }
 
     /// Postures along a straight line of the tool as far as it is clear, and what ended it.

@@ -46,6 +46,9 @@ const SPIN_SHARE: f64 = 0.27;
 /// A finger that slips along the board drags it aside with this share of what it pushes with.
 const DRAG_SHARE: f64 = 0.3;
 
+/// From where a flap rests to where it was held, at the most.
+const HELD_STEPS: usize = 4;
+
 /// Places along and across, and angles, that `is_bearable` asks about.
 const PLACES: usize = 10;
 const BEARABLE_STEP_RAD: f64 = 0.0873;
@@ -82,8 +85,18 @@ impl Fold {
 
     /// Where it rests after it was held at an angle and let go: the crease gives back what the flap's weight lets it.
     pub fn rest_rad(&self, hold_rad: f64) -> f64 {
+        hold_rad + self.given_back_rad(hold_rad)
+    }
+
+    /// Where it was held that rests at an angle.
+    pub fn held_rad(&self, rest_rad: f64) -> f64 {
+        // The weight's share hardly changes over the few degrees between.
+        (0..HELD_STEPS).fold(rest_rad, |held_rad, _| rest_rad - self.given_back_rad(held_rad))
+    }
+
+    fn given_back_rad(&self, hold_rad: f64) -> f64 {
         let share = 1.0 - self.weight_n_m * hold_rad.cos() / self.crease_n_m.max(f64::MIN_POSITIVE);
-        hold_rad + self.return_rad * share.clamp(0.0, 1.0)
+        self.return_rad * share.clamp(0.0, 1.0)
     }
 }
 
@@ -215,6 +228,9 @@ mod tests {
         assert!((fold.rest_rad(-0.1) - 0.1).abs() < 1e-12);
         let heavy = Fold { weight_n_m: 0.2, ..fold };
         assert_eq!(heavy.rest_rad(0.0), 0.0);
+        let some = Fold { weight_n_m: 0.06, ..fold };
+        let held = [-0.15, 0.0, 0.1, 0.3].map(|hold_rad| some.held_rad(some.rest_rad(hold_rad)) - hold_rad);
+        assert!(held.iter().all(|off_rad| off_rad.abs() < 1e-4), "{held:?}");
         assert!(heavy.closing_n_m(0.1) < 0.0 && heavy.closing_n_m(3.0) > 0.29);
     }
 }

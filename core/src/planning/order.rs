@@ -1,10 +1,10 @@
 //! In which order flaps are closed.
 
 use std::collections::HashMap;
-use std::time::Instant;
 
 use super::closing::Closer;
 use super::guard::{Guard, Moment};
+use super::known::Tried;
 use super::push::PushMotion;
 use super::reason::WhyNot;
 
@@ -13,11 +13,7 @@ pub struct Ordered {
     pub order: Vec<usize>,
     pub pushes: Vec<PushMotion>,
     pub why_not: Vec<(usize, WhyNot)>,
-    /// Spent on each flap, in the problem's order.
-    pub seconds: Vec<f64>,
 }
-
-type Tried = Result<PushMotion, WhyNot>;
 
 /// Depth first over orders, the likeliest first, each push planned once for each set of flaps closed before it. The first order that
 /// closes all ends the search; else the first of those that close most.
@@ -27,7 +23,6 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
         known: HashMap::new(),
         best: Vec::new(),
         wanted: open.len(),
-        seconds: vec![0.0; angles_rad.len()],
         hopeless: Vec::new(),
         searches: vec![0; angles_rad.len()],
     };
@@ -42,7 +37,7 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
     }
     let left = ranked.iter().filter(|flap| !best.contains(flap));
     let why_not = left.filter_map(|&flap| Some((flap, search.why_not(flap, &best)?))).collect();
-    let mut ordered = Ordered { order: best, pushes, why_not, seconds: search.seconds };
+    let mut ordered = Ordered { order: best, pushes, why_not };
     add_sliding(closer, &mut ordered, angles_rad);
     ordered
 }
@@ -54,9 +49,7 @@ fn add_sliding<G: Guard>(closer: &Closer<'_, G>, ordered: &mut Ordered, angles_r
         angles_rad[flap] = closer.rest_rad(flap, push);
     }
     for (flap, why) in std::mem::take(&mut ordered.why_not) {
-        let started = Instant::now();
         let push = if why.moves_box { closer.push_home(flap, &Moment::resting(&angles_rad)) } else { None };
-        ordered.seconds[flap] += started.elapsed().as_secs_f64();
         match push {
             Some(push) => {
                 angles_rad[flap] = closer.rest_rad(flap, &push);
@@ -74,10 +67,8 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
     let area = |flap: usize| closer.problem.flaps[flap].area_m2();
     ranked.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
     let mut angles_rad = angles_rad.to_vec();
-    let mut found =
-        Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new(), seconds: vec![0.0; angles_rad.len()] };
+    let mut found = Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new() };
     for flap in ranked {
-        let started = Instant::now();
         match closer.push(flap, &Moment::resting(&angles_rad)) {
             Ok(push) => {
                 angles_rad[flap] = closer.rest_rad(flap, &push);
@@ -86,7 +77,6 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
             }
             Err(why) => found.why_not.push((flap, why)),
         }
-        found.seconds[flap] = started.elapsed().as_secs_f64();
     }
     found
 }
@@ -111,9 +101,8 @@ struct Search<'a, 'b, G: Guard> {
     known: HashMap<(usize, u32), Tried>,
     best: Vec<usize>,
     wanted: usize,
-    seconds: Vec<f64>,
-    /// Flaps that nothing but themselves, the arm and what stands still keeps open.
-    hopeless: Vec<usize>,
+    /// Flaps that nothing but themselves, the arm and what stands still keeps open, and why.
+    hopeless: Vec<(usize, WhyNot)>,
     /// For each flap, in the problem's order: how many searches of the arm's ways found none.
     searches: Vec<usize>,
 }
@@ -149,6 +138,9 @@ impl<G: Guard> Search<'_, '_, G> {
 
     /// Why a flap cannot be closed after those of an order, or before any.
     fn why_not(&self, flap: usize, order: &[usize]) -> Option<WhyNot> {
+        if let Some((_, why)) = self.hopeless.iter().find(|(hopeless, _)| *hopeless == flap) {
+            return Some(why.clone());
+        }
         let sets = (0..=order.len()).rev().map(|count| closed_set(&order[..count]));
         let mut tried = sets.filter_map(|set| self.known.get(&(flap, set)));
         tried.find_map(|tried| tried.as_ref().err().cloned())
@@ -161,18 +153,16 @@ impl<G: Guard> Search<'_, '_, G> {
     }
 
     fn can_push(&mut self, flap: usize, before: &[usize], angles_rad: &[f64]) -> bool {
-        if self.hopeless.contains(&flap) {
+        if self.hopeless.iter().any(|(hopeless, _)| *hopeless == flap) {
             return false;
         }
         let key = (flap, closed_set(before));
         if !self.known.contains_key(&key) {
-            let started = Instant::now();
             let tried = self.closer.push(flap, &Moment::resting(angles_rad));
-            self.seconds[flap] += started.elapsed().as_secs_f64();
             if let Err(why) = &tried {
                 self.searches[flap] += usize::from(why.searched);
                 if !why.by_flaps || self.searches[flap] >= MOST_SEARCHES {
-                    self.hopeless.push(flap);
+                    self.hopeless.push((flap, why.clone()));
                 }
             }
             self.known.insert(key, tried);

@@ -66,11 +66,13 @@ impl<G: Guard> Pusher<'_, G> {
             moments,
         };
         let fine_settings = self.settings.with_fine_contacts();
-        let fine = self.contacts.finer(&fine_settings);
+        let over_settings = self.settings.with_contacts_over_edges();
+        let (fine, over) = (self.contacts.finer(&fine_settings), self.contacts.finer(&over_settings));
         self.guard.explain_anew();
         let mut why = None;
         for (k, &beam) in self.settings.beams.iter().enumerate() {
-            match search.run(beam, if k == 0 { &self.contacts } else { &fine }) {
+            let contacts = [&self.contacts, &fine, &over][k.min(2)];
+            match search.run(beam, contacts) {
                 Ok(motion) => return Ok(motion),
                 Err(found) => why = Some(found),
             }
@@ -79,6 +81,7 @@ impl<G: Guard> Pusher<'_, G> {
             status: Status::OutOfTime,
             reason: "no search was allowed".into(),
             by_flaps: false,
+            at_start: false,
             moves_box: false,
             searched: true,
         }))
@@ -187,7 +190,7 @@ impl<G: Guard> Pusher<'_, G> {
             _ => false,
         });
         let moves_box = tally.any(|obstacle| *obstacle == Obstacle::Moves);
-        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, moves_box, searched: true }
+        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, at_start, moves_box, searched: true }
     }
 }
 

@@ -100,6 +100,8 @@ pub struct WhyNot {
     pub reason: String,
     /// Whether other flaps had a part in it: then it may be otherwise once they have moved.
     pub by_flaps: bool,
+    /// Whether the arm cannot even begin.
+    pub at_start: bool,
     /// Whether pushes were left out that would have moved the box.
     pub moves_box: bool,
     /// Whether the arm's ways were searched for, which takes time.
@@ -110,6 +112,6 @@ impl WhyNot {
     /// Boards are in the way, whatever the arm does.
     pub fn by_boards(obstacle: &Obstacle) -> Self {
         let reason = obstacle.to_string();
-        Self { status: Status::Blocked, reason, by_flaps: true, moves_box: false, searched: false }
+        Self { status: Status::Blocked, reason, by_flaps: true, at_start: false, moves_box: false, searched: false }
     }
 }

@@ -7,6 +7,7 @@ use super::closing::Closer;
 use super::exhaustive::Exhaustive;
 use super::flap::Standing;
 use super::guard::Moment;
+use super::known::Known;
 use super::load::Load;
 use super::problem::MeasuredBox;
 use super::reason::Obstacle;
@@ -27,8 +28,8 @@ pub struct SceneBox {
     pub size_m: [f64; 3],
 }
 
-/// How often a plan is made again with a wider margin, where its motion came too near to something between two postures, before the
-/// flap is left open.
+/// How often a flap is planned again with wider margins, where its motion came too near to something between two postures, before
+/// it is left open.
 const WIDER: i32 = 2;
 
 /// What is to be closed, amid what, and how.
@@ -48,6 +49,9 @@ pub struct Request {
     /// Flaps that were closed before and rest where they were let go.
     #[serde(default)]
     pub closed: Vec<String>,
+    /// Makes the first of the settings' searches alone: mostly enough to say which flaps can be closed.
+    #[serde(default)]
+    pub quick: bool,
 }
 
 /// Which planner.
@@ -74,7 +78,11 @@ impl Request {
     /// Where there is nothing to close, or where the arm's base stands inside the box.
     pub fn plan(self, arm: &Arm) -> Result<Answer> {
         let mut problem = self.measured.into_problem()?;
-        let settings = &self.settings;
+        let mut settings = self.settings;
+        if self.quick {
+            settings.beams.truncate(1);
+        }
+        let settings = &settings;
         let load = Load::of(&problem, &settings.assumed);
         for (flap, fold) in problem.flaps.iter_mut().zip(&load.folds).filter(|(f, _)| self.closed.contains(&f.name)) {
             flap.position_rad = fold.rest_rad(0.0).min(settings.closed_rad);
@@ -82,39 +90,59 @@ impl Request {
         let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
         let guard = Surroundings::new(arm, &problem, scene);
         guard.check_base()?;
+        let (wider, known) = (widened(settings), Known::default());
+        let mut widened = vec![0; problem.flaps.len()];
         let mut left_open: Vec<(String, Obstacle)> = Vec::new();
-        for attempt in 0.. {
-            let mut settings = settings.clone();
-            // Wider margins for what lies between postures, and postures closer together where the finger touches.
-            let wider = f64::from(attempt.min(WIDER) + 1);
-            settings.search_margin_m *= wider;
-            settings.sample_rad /= wider;
-            settings.touch_gap_m *= wider;
+        loop {
             let left: Vec<&str> = left_open.iter().map(|(name, _)| name.as_str()).collect();
             let closer = Closer {
                 arm,
                 guard: &guard,
                 problem: &problem,
                 load: &load,
-                settings: &settings,
+                settings,
+                wider: &wider,
+                widened: &widened,
+                known: &known,
                 method: self.method,
                 only: &self.only,
                 left_open: &left,
             };
-            let mut answer = timed(&closer.plan(&arm.ready), arm, &problem, &settings);
+            let mut answer = timed(&closer.plan(&arm.ready), arm, &problem, settings);
             let conflicts = answer.conflicts(arm, &guard, settings.check_s, settings.clearance_m);
             if conflicts.is_empty() {
                 answer.tell_left_open(&left_open);
                 return Ok(answer);
             }
-            if attempt >= WIDER {
-                left_open.extend(conflicts.into_iter().map(|conflict| (conflict.flap, conflict.obstacle)));
-                left_open.sort();
-                left_open.dedup_by(|a, b| a.0 == b.0);
+            // One more of a flap's margins is wider each time, or one more flap is left open: this ends.
+            let mut flaps: Vec<(String, Obstacle)> =
+                conflicts.into_iter().map(|conflict| (conflict.flap, conflict.obstacle)).collect();
+            flaps.dedup_by(|a, b| a.0 == b.0);
+            for (name, obstacle) in flaps {
+                match problem
+                    .flaps
+                    .iter()
+                    .position(|flap| flap.name == name)
+                    .filter(|&flap| widened[flap] < wider.len())
+                {
+                    Some(flap) => widened[flap] += 1,
+                    None => left_open.push((name, obstacle)),
+                }
             }
         }
-        unreachable!("every attempt leaves one more flap open, and without flaps there is no motion")
     }
+}
+
+/// Settings with wider margins for what lies between postures, and postures closer together where the finger touches.
+fn widened(settings: &PlanningSettings) -> Vec<PlanningSettings> {
+    let times = (2..=WIDER + 1).map(f64::from);
+    let wider = times.map(|times| PlanningSettings {
+        search_margin_m: settings.search_margin_m * times,
+        sample_rad: settings.sample_rad / times,
+        touch_gap_m: settings.touch_gap_m * times,
+        ..settings.clone()
+    });
+    wider.collect()
 }
 
 impl Request {

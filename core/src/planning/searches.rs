@@ -6,6 +6,8 @@ use super::layers::{Found, Layers};
 use super::line::Lines;
 use super::push::{PushMotion, Pusher};
 use super::reason::{Tally, WhyNot};
+use super::settings::PlanningSettings;
+use super::transit::Transit;
 use crate::arm::JointPositions;
 
 /// One flap's searches, and where the flaps are before, during and after them.
@@ -59,7 +61,19 @@ impl<G: Guard> Search<'_, '_, G> {
         Err(pusher.why_stuck(self.angles_rad[layer], layer == 0, &tally))
     }
 
-    /// The first of the paths that holds between its layers too, else the layer at which they end and what was in the way.
+    /// Do a motion's ends lie open, so that the arm finds from one to its ready pose and from there to the other?
+    fn comes_and_goes(&self, motion: &PushMotion) -> bool {
+        let Pusher { arm, guard, settings, .. } = self.pusher;
+        let settings = PlanningSettings { transit_tries: POCKET_TRIES, ..(*settings).clone() };
+        let leads = |end: Option<&JointPositions>, moment: &Moment| {
+            let transit =
+                Transit { arm, guard: *guard, settings: &settings, moment, step_rad: settings.joint_step_rad };
+            end.is_some_and(|end| transit.is_connected(end, &arm.ready))
+        };
+        leads(motion.approach.first(), &self.before) && leads(motion.retreat.last(), &self.after)
+    }
+
+    /// The first of the paths that holds between its layers too and whose ends lie open, else the layer at which they end and what was in the way.
     fn followed(&self, layers: &Layers<'_, G>, found: Found) -> Result<PushMotion, (usize, Tally)> {
         let paths = match found {
             Found::Stuck { layer, tally } => return Err((layer, tally)),
@@ -67,16 +81,29 @@ impl<G: Guard> Search<'_, '_, G> {
         };
         let mut tally = Tally::default();
         self.pusher.guard.explain_anew();
+        let mut pocketed = Vec::new();
         for path in &paths {
             let (first, last) = ((&self.touching, &self.before), (&self.held, &self.after));
             match self.pusher.dense(layers, path, &self.lines, first, last) {
-                Ok(motion) => return Ok(motion),
+                Ok(motion) if self.comes_and_goes(&motion) => return Ok(motion),
+                Ok(motion) => pocketed.push(motion),
                 Err(obstacle) => tally.add(obstacle),
             }
+            if pocketed.len() > MOST_POCKETED {
+                break;
+            }
+        }
+        if let Some(motion) = pocketed.into_iter().next() {
+            // Too few tries prove nothing.
+            return Ok(motion);
         }
         Err((self.angles_rad.len() - 1, tally))
     }
 }
+
+/// How hard it is tried to get out of where a motion ends, and how many paths are given up for it.
+const POCKET_TRIES: usize = 300;
+const MOST_POCKETED: usize = 3;
 
 fn reversed<T: Clone>(items: &[T]) -> Vec<T> {
     items.iter().rev().cloned().collect()

@@ -40,7 +40,7 @@ pub struct PlanningSettings {
     pub layer_rad: f64,
     /// Between two samples of a push, at most.
     pub sample_rad: f64,
-    /// States kept in each layer: a first try, and wider ones with finer contacts where it fails.
+    /// States kept in each layer: a first try, one among finer contacts where it fails, then with contacts over the flap's edges.
     pub beams: Vec<usize>,
     /// Between contacts along and across a flap, and how many of them at most.
     pub contact_step_m: f64,
@@ -91,6 +91,10 @@ pub struct PlanningSettings {
 pub struct FineContacts {
     pub contact_step_m: f64,
     pub most_contacts: [usize; 2],
+    /// In searches after the second the finger may stand over an end of the flap, or over its free edge: it touches with a side of
+    /// its tip then, and slips off more easily.
+    pub over_inset_m: f64,
+    pub over_beyond_m: f64,
     pub least_lever: f64,
     pub most_lean: f64,
     pub least_hook_m: f64,
@@ -98,15 +102,36 @@ pub struct FineContacts {
 
 impl Default for FineContacts {
     fn default() -> Self {
-        Self { contact_step_m: 0.02, most_contacts: [13, 9], least_lever: 0.2, most_lean: 0.85, least_hook_m: 0.010 }
+        Self {
+            contact_step_m: 0.02,
+            most_contacts: [13, 9],
+            over_inset_m: -0.008,
+            over_beyond_m: 0.006,
+            least_lever: 0.2,
+            most_lean: 0.85,
+            least_hook_m: 0.010,
+        }
     }
 }
 
 impl PlanningSettings {
+    /// With the fine contacts in the place of the others, and those that stand over the flap's edges.
+    pub fn with_contacts_over_edges(&self) -> Self {
+        let FineContacts { over_inset_m, over_beyond_m, .. } = self.fine_contacts;
+        Self { contact_inset_m: over_inset_m, contact_beyond_m: over_beyond_m, ..self.with_fine_contacts() }
+    }
+
     /// With the fine contacts in the place of the others.
     pub fn with_fine_contacts(&self) -> Self {
-        let FineContacts { contact_step_m, most_contacts, least_lever, most_lean, least_hook_m } = self.fine_contacts;
-        Self { contact_step_m, most_contacts, least_lever, most_lean, least_hook_m, ..self.clone() }
+        let fine = &self.fine_contacts;
+        Self {
+            contact_step_m: fine.contact_step_m,
+            most_contacts: fine.most_contacts,
+            least_lever: fine.least_lever,
+            most_lean: fine.most_lean,
+            least_hook_m: fine.least_hook_m,
+            ..self.clone()
+        }
     }
 }
 
@@ -130,7 +155,7 @@ impl Default for PlanningSettings {
             under_rad: 4f64.to_radians(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
-            beams: vec![16, 100],
+            beams: vec![16, 100, 40],
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,

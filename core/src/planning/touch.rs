@@ -13,6 +13,17 @@ pub struct Finger {
     pub length_m: f64,
 }
 
+/// The same, turned before a flap.
+#[derive(Debug, Clone, Copy)]
+pub struct TurnedFinger {
+    finger: Finger,
+    pub flap_from_tool: Matrix3<f64>,
+    /// Relative to the tool point, in the flap's frame.
+    corners: [Vec3; 8],
+    /// The corner that reaches furthest in the push direction.
+    furthest: Vec3,
+}
+
 /// A first touch.
 #[derive(Debug, Clone, Copy)]
 pub struct Touch {
@@ -32,26 +43,27 @@ impl Finger {
             rotation * Vec3::new(x, y, z)
         })
     }
+}
 
-    /// The touch of a finger whose tool point is `at` (along, away) in the flap's plane, turned as `flap_from_tool`.
+impl TurnedFinger {
+    pub fn new(finger: Finger, flap_from_tool: Matrix3<f64>) -> Self {
+        let corners = finger.corners(&flap_from_tool);
+        let furthest =
+            corners[1..].iter().fold(corners[0], |best, corner| if corner.z < best.z { *corner } else { best });
+        Self { finger, flap_from_tool, corners, furthest }
+    }
+
+    /// The touch of the finger when its tool point is `at` (along, away) in the flap's plane.
     /// None where it passes the flap by.
     ///
     /// Eq. 84. What reaches furthest in the push direction of the finger inside the prism over the flap is a linear program in three
     /// variables: it lies at a corner of the finger, where one of its edges passes an edge of the flap, or over a corner of the flap.
-    pub fn touch(
-        &self,
-        outline: &[[f64; 2]; 4],
-        half_board_m: f64,
-        at: [f64; 2],
-        flap_from_tool: &Matrix3<f64>,
-    ) -> Option<Touch> {
-        let corners = self.corners(flap_from_tool);
+    pub fn touch(&self, outline: &[[f64; 2]; 4], half_board_m: f64, at: [f64; 2]) -> Option<Touch> {
+        let corners = &self.corners;
         let place = |p: &Vec3| [at[0] + p.x, at[1] + p.y];
         // Mostly the corner that reaches furthest is over the flap: nothing reaches further.
-        let furthest =
-            corners[1..].iter().fold(&corners[0], |best, corner| if corner.z < best.z { corner } else { best });
-        if contains(outline, place(furthest)) {
-            return Some(Touch { tool_outward_m: half_board_m - furthest.z, contact: place(furthest) });
+        if contains(outline, place(&self.furthest)) {
+            return Some(Touch { tool_outward_m: half_board_m - self.furthest.z, contact: place(&self.furthest) });
         }
         let mut lowest: Option<(f64, [f64; 2])> = None;
         let mut consider = |w: f64, place: [f64; 2]| {
@@ -59,7 +71,7 @@ impl Finger {
                 lowest = Some((w, place));
             }
         };
-        for corner in &corners {
+        for corner in corners {
             if contains(outline, place(corner)) {
                 consider(corner.z, place(corner));
             }
@@ -73,7 +85,7 @@ impl Finger {
         }
         for corner in outline {
             let offset = [corner[0] - at[0], corner[1] - at[1]];
-            if let Some(w) = self.lowest_over(flap_from_tool, offset) {
+            if let Some(w) = self.lowest_over(offset) {
                 consider(w, *corner);
             }
         }
@@ -81,11 +93,12 @@ impl Finger {
     }
 
     /// The lowest point of the finger on the line along `outward` through `offset` from the tool point.
-    fn lowest_over(&self, flap_from_tool: &Matrix3<f64>, offset: [f64; 2]) -> Option<f64> {
+    fn lowest_over(&self, offset: [f64; 2]) -> Option<f64> {
+        let (finger, flap_from_tool) = (&self.finger, &self.flap_from_tool);
         let start = flap_from_tool.tr_mul(&Vec3::new(offset[0], offset[1], 0.0));
         let direction = flap_from_tool.tr_mul(&Vec3::z());
-        let low = [-self.half_m[0], -self.half_m[1], -self.length_m];
-        let high = [self.half_m[0], self.half_m[1], 0.0];
+        let low = [-finger.half_m[0], -finger.half_m[1], -finger.length_m];
+        let high = [finger.half_m[0], finger.half_m[1], 0.0];
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         for k in 0..3 {
             if direction[k].abs() < 1e-12 {
@@ -175,7 +188,7 @@ mod tests {
             let axis = Vec3::new(rng.unit() - 0.5, rng.unit() - 0.5, rng.unit() - 0.5);
             let rotation = *Rotation3::new(axis.normalize() * (6.0 * rng.unit())).matrix();
             let at = [0.24 * rng.unit() - 0.02, 0.14 * rng.unit() - 0.02];
-            let Some(touch) = FINGER.touch(&OUTLINE, 0.002, at, &rotation) else {
+            let Some(touch) = TurnedFinger::new(FINGER, rotation).touch(&OUTLINE, 0.002, at) else {
                 assert!(lowest_of_points(at, &rotation).is_none());
                 continue;
             };
@@ -191,7 +204,7 @@ mod tests {
     #[test]
     fn a_finger_square_on_the_face_stands_on_its_tip() {
         let down = *Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI).matrix();
-        let touch = FINGER.touch(&OUTLINE, 0.002, [0.1, 0.05], &down).unwrap();
+        let touch = TurnedFinger::new(FINGER, down).touch(&OUTLINE, 0.002, [0.1, 0.05]).unwrap();
         assert!((touch.tool_outward_m - 0.002).abs() < 1e-12);
     }
 }

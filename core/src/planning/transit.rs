@@ -21,7 +21,9 @@ struct Tree {
 }
 
 /// How many times finer than the settings' the steps of a search are, one search after the other.
-const FINER: [f64; 2] = [1.0, 4.0];
+const FINER: [f64; 3] = [1.0, 4.0, 8.0];
+/// How much finer than the settings' a way is looked at again.
+const AGAIN: f64 = 4.0;
 /// How far a tree grows towards a drawn posture at once, in steps of `joint_step_rad`.
 const GROWTH: usize = 8;
 /// Postures are drawn within this of the box of both ends in every second draw, else within the joints' limits: ways are mostly near.
@@ -36,8 +38,11 @@ impl<G: Guard> Transit<'_, G> {
             .find_map(|finer| {
                 let search = Self { step_rad: self.step_rad / finer, ..*self };
                 let way = search.any_way(from, to, via)?;
-                let fine = Self { step_rad: self.step_rad / FINER[FINER.len() - 1], ..*self };
-                way.windows(2).all(|pair| fine.is_clear(&pair[0], &pair[1])).then_some(way)
+                let fine = Self { step_rad: self.step_rad / AGAIN, ..*self };
+                let is_clear = |way: &[JointPositions]| way.windows(2).all(|pair| fine.is_clear(&pair[0], &pair[1]));
+                // Shortcuts lead nearer to things than what they cut short.
+                let short = search.shortened(way.clone());
+                [short, way].into_iter().find(|way| is_clear(way))
             })
             .map(|mut way| {
                 // Leaving out nodes that are one but for rounding may have left out an end.
@@ -47,16 +52,19 @@ impl<G: Guard> Transit<'_, G> {
             })
     }
 
+    /// Is any way found from one to the other, looked at in the settings' steps alone?
+    pub fn is_connected(&self, from: &JointPositions, to: &JointPositions) -> bool {
+        self.is_clear(from, to) || self.connect(from, to).is_some()
+    }
+
     fn any_way(&self, from: &JointPositions, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
         if self.is_clear(from, to) {
             return Some(vec![*from, *to]);
         }
-        let way = if self.is_clear(from, via) && self.is_clear(via, to) {
-            vec![*from, *via, *to]
-        } else {
-            self.connect(from, to)?
-        };
-        Some(self.shortened(way))
+        if self.is_clear(from, via) && self.is_clear(via, to) {
+            return Some(vec![*from, *via, *to]);
+        }
+        self.connect(from, to)
     }
 
     /// Is every posture between two on the straight line in joint space clear, the second included?

@@ -20,10 +20,12 @@ def ask(
     method: str = "layered",
     only: Sequence[str] = (),
     closed: Sequence[str] = (),
+    quick: bool = False,
 ) -> dict[str, Any]:
     """The core's answer about a box in the base frame: order, flaps, segments, joint_names, robot.
 
-    `only` leaves all other flaps as they are; `closed` flaps are taken to have been closed before. Raises ValueError in
+    `only` leaves all other flaps as they are; `closed` flaps are taken to have been closed before;
+    `quick` makes the first of the searches alone. Raises ValueError in
     one line for what cannot be used.
     """
     request = {
@@ -33,6 +35,7 @@ def ask(
         "settings": dict(settings or {}),
         "only": list(only),
         "closed": list(closed),
+        "quick": quick,
     }
     answer: dict[str, Any] = json.loads(_core.plan_closing(robot_text(robot), json.dumps(request)))
     return answer

@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from boxwright.kinematics.transforms import Matrix, from_pose, inverse, rigid, turn_about_line
-from boxwright.planning.asking import ask
+from boxwright.planning.asking import ask, ask_bearable
 from boxwright.planning.checks import refuse_poses
 from boxwright.planning.measured import measured_box
 from boxwright.robots import robot_file
@@ -26,6 +26,12 @@ BELOW_M = (0.15, 0.0, 0.3)
 BEARINGS = 12
 """Directions from which the robot looks at the box."""
 
+PATIENCE = 24
+"""The search ends when so many places in a row, two circles of them, were no better than the best before."""
+
+LOOKED_AT_AGAIN = 3
+"""Places at which quick searches close most, and which the whole planner then chooses from."""
+
 STEPS_M = (0.05, 0.10, 0.15, 0.20, 0.30)
 TURNS_DEG = (15.0, -15.0, 30.0, -30.0)
 TURN_M_PER_RAD = 0.5
@@ -37,6 +43,9 @@ def place_robot(
 ) -> Pose:
     """base_from_input of the first place, of a fixed list, from which most flaps can be closed; all, where one does.
 
+    Quick searches go through the list until all flaps are closed but those that the box does not stand being pushed
+    (eq. 97), or until two circles of places bring nothing more; then the whole planner chooses among the best.
+
     Raises ValueError where the model has no such object, where it has no pose, or where no place closes any flap.
     """
     if not 0 <= object_index < len(model.objects):
@@ -45,17 +54,37 @@ def place_robot(
     if model.objects[object_index].pose is None:
         raise ValueError(f"object {object_index} has no pose: too little of it was seen to put a robot before it")
     robot_file(robot)
-    measured_box(model, object_index, np.eye(4))
-    best: tuple[int, Matrix] | None = None
-    for base_from_input in _places(model, object_index):
-        closed, left = _closed_and_left(model, robot, object_index, base_from_input, settings)
-        if closed is not None and (best is None or closed > best[0]):
-            best = (closed, base_from_input)
-        if closed is not None and left == 0:
-            break
-    if best is None:
+    tried, closes_all = _tried_quickly(model, robot, object_index, settings)
+    if not tried:
         raise ValueError(f"object {object_index}: no place of the list suits robot {str(robot)!r}; give --camera-pose")
-    return _pose(best[1])
+    # Sorting keeps the list's order among equals.
+    best = sorted(tried, key=lambda place: -place[0])[:LOOKED_AT_AGAIN]
+    if closes_all:
+        return _pose(best[0][1])
+    counts = [_closed_and_left(model, robot, object_index, place, settings)[0] or 0 for _, place in best]
+    return _pose(best[counts.index(max(counts))][1])
+
+
+def _tried_quickly(
+    model: Model, robot: str | PathLike[str], index: int, settings: Mapping[str, Any] | None
+) -> tuple[list[tuple[int, Matrix]], bool]:
+    """How many flaps quick searches close from each place that they came to; does the last close all that can be?"""
+    bearable = ask_bearable(measured_box(model, index, np.eye(4)), settings)
+    hopeless = sum(not can for can in bearable.values())
+    tried: list[tuple[int, Matrix]] = []
+    most, since = -1, 0
+    for base_from_input in _places(model, index):
+        closed, left = _closed_and_left(model, robot, index, base_from_input, settings, quick=True)
+        since += 1
+        if closed is not None:
+            tried.append((closed, base_from_input))
+            if closed > most:
+                most, since = closed, 0
+            if left <= hopeless:
+                return tried, True
+        if tried and since >= PATIENCE:
+            break
+    return tried, False
 
 
 def with_moves(plan: Plan, model: Model, robot: str | PathLike[str], settings: Mapping[str, Any] | None = None) -> Plan:
@@ -117,12 +146,18 @@ def _transform(move: SmallestMove) -> Matrix:
 
 
 def _closed_and_left(
-    model: Model, robot: str | PathLike[str], index: int, base_from_input: Matrix, settings: Mapping[str, Any] | None
+    model: Model,
+    robot: str | PathLike[str],
+    index: int,
+    base_from_input: Matrix,
+    settings: Mapping[str, Any] | None,
+    *,
+    quick: bool = False,
 ) -> tuple[int | None, int]:
     """Flaps that are closed from a place and open ones that are not; None where the arm cannot stand there."""
     box = measured_box(model, index, base_from_input)
     try:
-        answer = ask(robot, box, settings)
+        answer = ask(robot, box, settings, quick=quick)
     except ValueError:
         # Robot, model and object were looked at before: the arm would stand inside something here.
         return None, 0

@@ -1,0 +1,89 @@
+//! Pushes that were planned before: a plan that is made again with a wider margin for one flap needs only that flap's anew.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::time::Instant;
+
+use super::guard::Moment;
+use super::push::PushMotion;
+use super::reason::WhyNot;
+
+pub type Tried = Result<PushMotion, WhyNot>;
+
+/// How hard a flap is pushed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Force {
+    /// With a reserve to what moves the box.
+    Careful,
+    /// Without.
+    Home,
+}
+
+/// The flap, how often its margins were widened, where all flaps stood (bits of the angles), and how hard.
+type Key = (usize, usize, Vec<u64>, Force);
+
+/// What was tried of one box before one arm.
+#[derive(Debug, Default)]
+pub struct Known {
+    tried: RefCell<HashMap<Key, Tried>>,
+    /// Spent on each flap's pushes, by flap.
+    seconds: RefCell<HashMap<usize, f64>>,
+}
+
+impl Known {
+    /// What became of a push, which is planned where it is not known.
+    pub fn push(
+        &self,
+        flap: usize,
+        widened: usize,
+        moment: &Moment,
+        force: Force,
+        plan: impl FnOnce() -> Tried,
+    ) -> Tried {
+        let angles = moment.angles_rad.iter().map(|angle_rad| angle_rad.to_bits()).collect();
+        let key = (flap, widened, angles, force);
+        if let Some(known) = self.tried.borrow().get(&key) {
+            return known.clone();
+        }
+        let started = Instant::now();
+        let tried = plan();
+        *self.seconds.borrow_mut().entry(flap).or_default() += started.elapsed().as_secs_f64();
+        self.tried.borrow_mut().insert(key, tried.clone());
+        tried
+    }
+
+    pub fn seconds(&self, flap: usize) -> f64 {
+        self.seconds.borrow().get(&flap).copied().unwrap_or(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::reason::Obstacle;
+    use super::*;
+
+    #[test]
+    fn a_push_is_planned_once_for_its_flap_margins_angles_and_force() {
+        let known = Known::default();
+        let planned = std::cell::Cell::new(0);
+        let ask = |flap: usize, widened: usize, angle_rad: f64, force: Force| {
+            let tried = known.push(flap, widened, &Moment::resting(&[angle_rad]), force, || {
+                planned.set(planned.get() + 1);
+                Err(WhyNot::by_boards(&Obstacle::Something))
+            });
+            assert!(tried.is_err());
+        };
+        let asked = [
+            (0, 0, 1.0, Force::Careful),
+            (1, 0, 1.0, Force::Careful),
+            (0, 1, 1.0, Force::Careful),
+            (0, 0, 1.5, Force::Careful),
+        ];
+        for (flap, widened, angle_rad, force) in asked.into_iter().chain([(0, 0, 1.0, Force::Home)]) {
+            ask(flap, widened, angle_rad, force);
+            ask(flap, widened, angle_rad, force);
+        }
+        assert_eq!(planned.get(), 5);
+        assert!(known.seconds(0) > 0.0 && known.seconds(2) == 0.0);
+    }
+}
