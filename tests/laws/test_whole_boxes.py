@@ -53,10 +53,10 @@ def test_four_short_flaps_make_no_tote() -> None:
 
 
 def test_a_box_is_told_whose_fit_to_all_readings_does_not_end() -> None:
+    """That of one of these two does not; one that ranks nearly as high takes its place."""
     model = boxwright.infer(cloud_of(make_frame("medium", 501, 151))).model
     assert len(model.objects) == 2
-    (line,) = (line for line in model.warnings if "fewer of its readings" in line)
-    assert line.startswith("object 1")
+    assert not any("fewer of its readings" in line for line in model.warnings)
 
 
 def test_boxes_that_lie_close_are_chosen_together() -> None:
@@ -65,6 +65,13 @@ def test_boxes_that_lie_close_are_chosen_together() -> None:
     assert len(inferred.model.objects) == 2
     (refused,) = inferred.refused
     assert "243 x 116 x 136 mm" in refused
+
+
+def test_of_boxes_that_rank_nearly_alike_the_one_is_told_that_holds_most_once_fitted() -> None:
+    """By its rank before, a body of the first of these boxes was told that had two of three flaps wrong."""
+    found = boxwright.infer(cloud_of(make_frame("carton", 501, 159))).model.objects
+    flaps = sorted(sum(part.observed for part in one.parts if part.name.startswith("flap")) for one in found)
+    assert flaps == [3, 3]
 
 
 @pytest.mark.parametrize(

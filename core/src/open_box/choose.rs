@@ -9,8 +9,19 @@ const COARSE_CELL: usize = 4;
 /// Of two boxes that share one in so many of the smaller one's cells one is none.
 const SHARED: usize = 4;
 
+/// A box that stands in the scene, and those that could take its place and no other's, best first.
+#[derive(Debug)]
+pub struct Chosen {
+    pub one: FoundBox,
+    pub instead: Vec<FoundBox>,
+}
+
+/// Of those that could take its place so many are kept that rank nearly as high, by this share.
+const INSTEAD: usize = 2;
+const NEARLY: f64 = 0.9;
+
 /// The set of boxes that leave each other's readings alone and rank highest together, best first.
-pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<FoundBox> {
+pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<Chosen> {
     let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref()) * one.probability;
     let mut found: Vec<FoundBox> = found.into_iter().filter(|one| one.score > LEAST_SCORE).collect();
     found.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
@@ -18,8 +29,18 @@ pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<FoundBox> {
     let cells: Vec<Vec<u32>> = found.iter().map(|one| cells(one, width)).collect();
     let excludes = |a: usize, b: usize| SHARED * shared(&cells[a], &cells[b]) > cells[a].len().min(cells[b].len());
     let chosen = heaviest(&ranks, &excludes);
-    let is_chosen = |(number, one)| chosen.contains(&number).then_some(one);
-    found.into_iter().enumerate().filter_map(is_chosen).collect()
+    let takes_place = |other: usize, number: usize| {
+        !chosen.contains(&other)
+            && ranks[other] >= NEARLY * ranks[number]
+            && chosen.iter().all(|&one| excludes(one, other) == (one == number))
+    };
+    let instead = |number: usize| {
+        let others = (0..found.len()).filter(|&other| takes_place(other, number)).take(INSTEAD);
+        others.map(|other| found[other].clone()).collect()
+    };
+    let mut chosen_by_number = chosen.clone();
+    chosen_by_number.sort_unstable();
+    chosen_by_number.iter().map(|&number| Chosen { one: found[number].clone(), instead: instead(number) }).collect()
 }
 
 /// Sorted, each once.

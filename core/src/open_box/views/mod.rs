@@ -95,6 +95,6 @@ pub fn fuse<'a>(
     }
     // All images as one row.
     let points = sights.iter().map(|sight| sight.points.len()).sum();
-    let found = choose(fitted, points);
+    let found = choose(fitted, points).into_iter().map(|chosen| chosen.one).collect();
     Ok(Fused { sights, found, refused, warnings })
 }
