@@ -12,7 +12,7 @@ const BESIDE_PX: f64 = 3.0;
 const ON_RIM_M: [f64; 3] = [0.0, -0.003, 0.003];
 const MODEL_M: f64 = 0.006;
 
-/// Places along one side's rim, by what is seen there; each stands for as many as one.
+/// Places along one side's rim, counted by what is seen there.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RimLook {
     /// A reading on the rim, and past it on both sides the camera sees further down.
