@@ -38,9 +38,7 @@ pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<Chosen> {
         let others = (0..found.len()).filter(|&other| takes_place(other, number)).take(INSTEAD);
         others.map(|other| found[other].clone()).collect()
     };
-    let mut chosen_by_number = chosen.clone();
-    chosen_by_number.sort_unstable();
-    chosen_by_number.iter().map(|&number| Chosen { one: found[number].clone(), instead: instead(number) }).collect()
+    chosen.iter().map(|&number| Chosen { one: found[number].clone(), instead: instead(number) }).collect()
 }
 
 /// Sorted, each once.
@@ -70,7 +68,7 @@ fn shared(a: &[u32], b: &[u32]) -> usize {
 /// Looked at, at most; what is best by then is taken.
 const MOST_STEPS: usize = 200_000;
 
-/// The numbers whose weights, heaviest first, sum to most of those none of which excludes another: branch and bound, by
+/// The numbers, ascending, whose weights, heaviest first, sum to most of those none of which excludes another: branch and bound, by
 /// groups all of whose members exclude each other.
 fn heaviest(weights: &[f64], excludes: &dyn Fn(usize, usize) -> bool) -> Vec<usize> {
     let mut groups: Vec<Vec<usize>> = Vec::new();

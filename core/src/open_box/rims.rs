@@ -11,6 +11,13 @@ const BESIDE_PX: f64 = 3.0;
 /// The board is as thick as a pixel or two: a reading of it lies this far beside its middle, metres.
 const ON_RIM_M: [f64; 3] = [0.0, -0.003, 0.003];
 const MODEL_M: f64 = 0.006;
+/// So many places of each side's rim are looked at.
+const PLACES: usize = 16;
+/// Where boxes still compete.
+const FEW_PLACES: usize = 8;
+/// A rim counts as a stripe so many pixels wide; one that may be a flap's fold as half of it.
+const STRIPE_PX: f64 = 6.0;
+const OF_FOLDS: f64 = 0.5;
 
 /// Places along one side's rim, counted by what is seen there.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -69,13 +76,6 @@ pub fn shares(sight: &Sight, body: &FittedBody, present: &Present) -> [f64; 3] {
     [free, goes_on, through].map(|count| count / (free + goes_on + through + 1.0))
 }
 
-const PLACES: usize = 16;
-/// Where boxes still compete.
-const FEW_PLACES: usize = 8;
-/// A rim counts as a stripe so many pixels wide; one that may be a flap's fold as half of it.
-const STRIPE_PX: f64 = 6.0;
-const OF_FOLDS: f64 = 0.5;
-
 /// What its rims say of a box (eq. 103).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct OnRims {
@@ -85,6 +85,7 @@ pub struct OnRims {
     pub open: f64,
 }
 
+/// Looks along all four rims of a body that still competes.
 pub fn of_body(sight: &Sight, body: &FittedBody) -> OnRims {
     let (mut pixels, mut open, mut all) = (0.0, 0.0, 1.0);
     for k in 0..4 {
