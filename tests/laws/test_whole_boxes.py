@@ -68,10 +68,9 @@ def test_boxes_that_lie_close_are_chosen_together() -> None:
 
 
 def test_of_boxes_that_rank_nearly_alike_the_one_is_told_that_holds_most_once_fitted() -> None:
-    """By its rank before, a body of the first of these boxes was told that had two of three flaps wrong."""
-    found = boxwright.infer(cloud_of(make_frame("carton", 501, 159))).model.objects
-    flaps = sorted(sum(part.observed for part in one.parts if part.name.startswith("flap")) for one in found)
-    assert flaps == [3, 3]
+    """By its rank before, a body of this box was told that lacked one of its four flaps."""
+    (found,) = boxwright.infer(cloud_of(make_frame("cake", 501, 58))).model.objects
+    assert sum(part.observed for part in found.parts if part.name.startswith("flap")) == 4
 
 
 @pytest.mark.parametrize(
