@@ -123,14 +123,16 @@ weights-fitted:
 	$(BIN)/boxwright synth $(SETS)/judge_none --count 160 --seed 504 --category none
 	$(BIN)/boxwright synth $(SETS)/judge_2 --count 360 --seed 505
 	$(BIN)/boxwright synth $(SETS)/judge_none_2 --count 107 --seed 506 --category none
-	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none $(SETS)/judge_2 $(SETS)/judge_none_2 \
+	$(BIN)/boxwright synth $(SETS)/judge_3 --count 360 --seed 507
+	$(BIN)/boxwright synth $(SETS)/judge_none_3 --count 200 --seed 508 --category none
+	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none $(SETS)/judge_2 $(SETS)/judge_none_2 $(SETS)/judge_3 $(SETS)/judge_none_3 \
 		--method fitted -o $(WEIGHTS)/fitted/judgement.json
 	$(BIN)/python -m benchmarks.kinds $(SETS)/judge $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 	$(BIN)/python -m benchmarks.coverage $(SETS)/judge --scales
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, and 200 and 60 without an open box)
-	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 4001
-	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 4002 --category none
+	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 5001
+	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 5002 --category none
 	for method in fitted exact paper; do \
 		$(BIN)/boxwright evaluate $(SETS)/boxes --method $$method -o out/boxes_$$method.json; \
 		$(BIN)/boxwright evaluate $(SETS)/no_boxes --method $$method -o out/no_boxes_$$method.json; \

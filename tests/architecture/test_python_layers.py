@@ -37,10 +37,11 @@ ONLY_IN = {
     "mujoco": {"simulation"},
     "PIL": {"simulation"},
     "scipy": set(),
+    "sklearn": {"learning"},
 }
 """Rooms that may import what is slow to import or an extra; `infer` needs numpy alone."""
 
-MODULE_OF = {"mcap-ros2-support": "mcap_ros2", "pyyaml": "yaml", "pillow": "PIL"}
+MODULE_OF = {"mcap-ros2-support": "mcap_ros2", "pyyaml": "yaml", "pillow": "PIL", "scikit-learn": "sklearn"}
 
 RANK = {room: rank for rank, rooms in enumerate(LAYERS) for room in rooms}
 

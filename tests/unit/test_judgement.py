@@ -48,18 +48,17 @@ def test_a_judgement_that_does_not_fit_is_named() -> None:
     points = np.full((64 * 48, 3), np.nan, np.float32)
     points[:] = np.random.default_rng(0).normal(size=points.shape) * 0.01 + [0.0, 0.0, 1.0]
     _, model = load_object_model("carton", None, "exact")
-    refused = 0
-    for table, name, problem in (("box", "on_walls", "on_walls"), ("part", "lean", "lean")):
-        for change in ("missing", "unknown"):
-            broken = json.loads(text)
-            if change == "missing":
-                del broken[table][name]
-            else:
-                broken[table]["no_such_feature"] = 1.0
-            expected = problem if change == "missing" else "no_such_feature"
-            with pytest.raises(ValueError, match=f"judgement.{table}.*{expected}"):
-                _core.infer(
-                    points, 64, 48, [model], viewpoint=(0.0, 0.0, 0.0), fitted=True, judgement=json.dumps(broken)
-                )
-            refused += 1
-    assert refused == 4
+    unknown_leaf = ["no_such_feature", 0.5, 0.0, 1.0]
+    changes = {
+        "on_walls": lambda judgement: judgement["box"]["weights"].pop("on_walls"),
+        "lean": lambda judgement: judgement["part"]["weights"].pop("lean"),
+        "no_such_weight": lambda judgement: judgement["box"]["weights"].update(no_such_weight=1.0),
+        "no_such_feature": lambda judgement: judgement["part"]["trees"].append(["lean", 0.1, 0.0, unknown_leaf]),
+        "told_from: 1.5": lambda judgement: judgement["part"].update(told_from=1.5),
+        "Tree": lambda judgement: judgement["box"]["trees"].append(["lean", 0.5]),
+    }
+    for expected, change in changes.items():
+        broken = json.loads(text)
+        change(broken)
+        with pytest.raises(ValueError, match=f"judgement.*{expected}"):
+            _core.infer(points, 64, 48, [model], viewpoint=(0.0, 0.0, 0.0), fitted=True, judgement=json.dumps(broken))

@@ -33,7 +33,8 @@ pub fn answer(
         let points = found.labels.of(role);
         let features = found.part_features.iter().find(|(r, _)| *r == role).map(|(_, features)| features);
         parts[part].probability = judgement.zip(features).map(|(judgement, f)| judgement.part_probability(f));
-        if points.is_empty() || parts[part].probability.is_some_and(|p| p < 0.5) {
+        let least = judgement.map_or(0.0, Judgement::part_told_from);
+        if points.is_empty() || parts[part].probability.is_some_and(|p| p < least) {
             continue;
         }
         seen[part] = true;

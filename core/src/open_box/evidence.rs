@@ -44,6 +44,7 @@ pub fn look_from_all(sights: &[Sight], body: &FittedBody, role: Role, model_m: f
 
 const ALONG: usize = 16;
 const AWAY: usize = 12;
+const STRIP: usize = 4;
 /// Left out at each end, share of the panel.
 const END_SHARE: f64 = 0.06;
 
@@ -127,6 +128,18 @@ impl<'a> Sheet<'a> {
         let (_, inward) = self.rim.directions();
         let normal = inward * normal[0] + Vec3::z() * normal[1];
         (self.body.to_input(&point), (self.body.input_from_object.rotation * normal).normalize())
+    }
+
+    /// Pixels with a reading on it, of the strip between two ways from the hinge.
+    pub fn met_between(&self, sight: &Sight, [from_m, to_m]: [f64; 2], model_m: f64) -> f64 {
+        let cell = self.width_m.max(0.0) * (to_m - from_m) * (1.0 - 2.0 * END_SHARE) / (ALONG * STRIP) as f64;
+        let places = (0..ALONG * STRIP).map(|i| {
+            let along = END_SHARE + (1.0 - 2.0 * END_SHARE) * ((i % ALONG) as f64 + 0.5) / ALONG as f64;
+            let away = ((i / ALONG) as f64 + 0.5) / STRIP as f64;
+            self.at(along - 0.5, from_m + away * (to_m - from_m))
+        });
+        let met = places.filter(|(point, normal)| sight.ask(point, normal, model_m).0 == Says::Met);
+        met.map(|(point, normal)| sight.pixels(&point, &normal, cell)).sum()
     }
 
     pub fn width_m(&self) -> f64 {

@@ -1,8 +1,8 @@
 //! Each rim edge is scanned for its flap: at every angle the readings are asked whether a board leaves the edge there.
 
+use super::hinge_line::HingeLine;
 use super::sight::{Says, Sight};
-use crate::fit::{flap_end, layout, FittedBody, Rim};
-use crate::geometry::{Plane, Vec3};
+use crate::geometry::Vec3;
 
 /// A flap as the scan sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,92 +23,6 @@ impl ScannedFlap {
     }
 }
 
-/// An edge that a board may hang on, in the level frame.
-#[derive(Debug, Clone, Copy)]
-pub struct HingeLine {
-    pub middle: Vec3,
-    pub along: Vec3,
-    /// Position 0 and position pi/2, unit vectors square to the edge.
-    pub closed: Vec3,
-    pub up: Vec3,
-    /// From the edge into the panel that it belongs to.
-    pub parent: Vec3,
-    pub half_m: f64,
-    /// The base's upper face; the support is level.
-    base: Plane,
-}
-
-impl HingeLine {
-    /// The top edge of side `k`.
-    pub fn of_side(body: &FittedBody, k: usize) -> Self {
-        let rim = Rim::new(body, k);
-        let turn = body.input_from_object.rotation;
-        let (along, inward) = rim.directions();
-        Self {
-            middle: body.to_input(&rim.place(0.0, 0.0, 0.0)),
-            along: turn * along,
-            closed: turn * inward,
-            up: turn * Vec3::z(),
-            parent: -(turn * Vec3::z()),
-            half_m: body.edge_m(k) / 2.0,
-            base: base_plane(body),
-        }
-    }
-
-    /// The free edge of flap `k`, for its tuck flap.
-    pub fn of_flap(body: &FittedBody, k: usize) -> Self {
-        let rim = Rim::new(body, k);
-        let [inward, above] = flap_end(body, k);
-        let turn = body.input_from_object.rotation;
-        let (along, across) = rim.directions();
-        let (sin, cos) = body.get(layout::flap(k) + layout::FLAP_ANGLE).sin_cos();
-        let way = turn * (across * cos + Vec3::z() * sin);
-        Self {
-            middle: body.to_input(&rim.place(body.get(layout::flap(k) + layout::FLAP_OFFSET), inward, above)),
-            along: turn * along,
-            closed: way,
-            // A tuck flap's position grows against its flap's.
-            up: turn * (across * sin - Vec3::z() * cos),
-            parent: -way,
-            half_m: body.get(layout::flap(k) + layout::FLAP_WIDTH) / 2.0
-                - body.get(layout::flap(k) + layout::FLAP_TAPER),
-            base: base_plane(body),
-        }
-    }
-
-    /// What the camera says of a point of a board on the edge; a reading of the panel that the edge belongs to, of
-    /// the base or of the support says nothing.
-    fn ask(&self, sight: &Sight, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<Vec3>) {
-        let (says, reading) = sight.ask(point, normal, model_m);
-        let Some((reading, _)) = reading else { return (says, None) };
-        let from = reading - self.middle;
-        let off = self.parent.cross(&self.along).dot(&from).abs();
-        let on_parent = self.parent.dot(&from) > -0.002 && off < model_m + HALF_BOARD_M;
-        if says == Says::Met && (on_parent || self.is_ground(sight, &reading, model_m)) {
-            return (Says::Blank, None);
-        }
-        (says, Some(reading))
-    }
-
-    fn is_ground(&self, sight: &Sight, reading: &Vec3, model_m: f64) -> bool {
-        let ray = reading - sight.eye;
-        let range = ray.norm();
-        let tolerance = sight.tolerance_m(range, ray.z / range, model_m);
-        reading.z.abs() < tolerance || self.base.height_of(reading).abs() < tolerance
-    }
-
-    fn directions(&self, angle: f64) -> (Vec3, Vec3) {
-        let (sin, cos) = angle.sin_cos();
-        (self.closed * cos + self.up * sin, self.up * cos - self.closed * sin)
-    }
-}
-
-fn base_plane(body: &FittedBody) -> Plane {
-    let normal = body.input_from_object.rotation * Vec3::z();
-    let distance = normal.dot(&body.input_from_object.translation.vector) + body.get(layout::THICKNESS);
-    Plane { normal, distance }
-}
-
 /// What a scan may find. Radians, metres.
 #[derive(Debug, Clone, Copy)]
 pub struct ScanRange {
@@ -119,12 +33,42 @@ pub struct ScanRange {
     /// Angles that are followed, at most, and places along the edge at which they are.
     pub peaks: usize,
     pub columns: usize,
+    /// Whether a board is looked for beyond what hides it near its hinge.
+    pub over_hidden: bool,
 }
 
-const HALF_BOARD_M: f64 = 0.003;
+impl ScanRange {
+    /// Ways from the hinge at which all angles are asked.
+    fn reaches(&self) -> impl Iterator<Item = f64> {
+        let far = if self.over_hidden { &FAR_M[..] } else { &[] };
+        NEAR_M.iter().chain(far).copied()
+    }
+
+    /// A board turns so far that its far end, where it is asked, moves by about the noise.
+    fn step_rad(&self) -> f64 {
+        if self.over_hidden {
+            FAR_STEP_RAD
+        } else {
+            STEP_RAD
+        }
+    }
+
+    /// How far a board is followed before its angle is bettered.
+    fn looks(&self) -> &'static [f64] {
+        if self.over_hidden {
+            &[0.2]
+        } else {
+            &[0.05, 0.1]
+        }
+    }
+}
+
 const STEP_RAD: f64 = 0.06;
-/// Ways from the hinge at which all angles are asked.
+const FAR_STEP_RAD: f64 = 0.03;
+const EDGE_ON_STEP_RAD: f64 = 0.01;
+const EDGE_ON_STEPS: i32 = 8;
 const NEAR_M: [f64; 4] = [0.013, 0.021, 0.032, 0.047];
+const FAR_M: [f64; 5] = [0.065, 0.085, 0.11, 0.14, 0.18];
 /// Places along the edge at which all angles are asked.
 const NEAR_COLUMNS: usize = 6;
 /// Left out at each end of the edge, share of its half.
@@ -138,20 +82,36 @@ const LEAST_ROWS_M: f64 = 0.012;
 
 /// The best flap on an edge, `None` where no angle has more readings for it than against it.
 pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<ScannedFlap> {
-    let steps = ((range.angles_rad[1] - range.angles_rad[0]) / STEP_RAD).ceil() as usize;
-    let angle = |i: usize| range.angles_rad[0] + i as f64 * STEP_RAD;
-    let scores: Vec<f64> = (0..=steps).map(|i| near_score(sight, hinge, angle(i), range.model_m)).collect();
+    let angles = angles(hinge, &sight.eye, range);
+    let scores: Vec<f64> = angles.iter().map(|&angle| near_score(sight, hinge, angle, range)).collect();
     let is_peak = |i: usize| {
         let of = |j: usize| scores.get(j).copied().unwrap_or(f64::NEG_INFINITY);
         scores[i] > 0.0 && scores[i] >= of(i + 1) && (i == 0 || scores[i] > of(i - 1))
     };
-    let mut peaks: Vec<usize> = (0..=steps).filter(|&i| is_peak(i)).collect();
+    let mut peaks: Vec<usize> = (0..angles.len()).filter(|&i| is_peak(i)).collect();
     peaks.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
-    let followed = peaks.iter().take(range.peaks).filter_map(|&i| follow(sight, hinge, angle(i), range));
+    let followed = peaks.iter().take(range.peaks).filter_map(|&i| follow(sight, hinge, angles[i], range));
     followed.filter(|flap| flap.score() > 0.0).fold(None, |best: Option<ScannedFlap>, flap| match best {
         Some(best) if best.score() >= flap.score() => Some(best),
         _ => Some(flap),
     })
+}
+
+/// The angles that are asked, ascending; where something is missed, more of those at which a board is seen from its edge: a little
+/// further it is seen elsewhere.
+fn angles(hinge: &HingeLine, eye: &Vec3, range: &ScanRange) -> Vec<f64> {
+    let step = range.step_rad();
+    let steps = ((range.angles_rad[1] - range.angles_rad[0]) / step).ceil() as usize;
+    let mut out: Vec<f64> = (0..=steps).map(|i| range.angles_rad[0] + i as f64 * step).collect();
+    if range.over_hidden {
+        let to_eye = eye - hinge.middle;
+        let edge_on = hinge.up.dot(&to_eye).atan2(hinge.closed.dot(&to_eye));
+        let around = (-EDGE_ON_STEPS..=EDGE_ON_STEPS).map(|i| edge_on + f64::from(i) * EDGE_ON_STEP_RAD);
+        let either_way = around.flat_map(|angle| [angle, angle + std::f64::consts::PI]);
+        out.extend(either_way.filter(|angle| (range.angles_rad[0]..range.angles_rad[1]).contains(angle)));
+        out.sort_by(f64::total_cmp);
+    }
+    out
 }
 
 fn columns(hinge: &HingeLine, count: usize) -> impl Iterator<Item = f64> {
@@ -159,13 +119,13 @@ fn columns(hinge: &HingeLine, count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |i| half * ((2 * i + 1) as f64 / count as f64 - 1.0))
 }
 
-fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, model_m: f64) -> f64 {
+fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -> f64 {
     let (way, normal) = hinge.directions(angle);
     let mut score = 0.0;
     for column in columns(hinge, NEAR_COLUMNS) {
-        for reach in NEAR_M {
+        for reach in range.reaches().filter(|reach| *reach < range.longest_m) {
             let point = hinge.middle + hinge.along * column + way * reach;
-            score += match hinge.ask(sight, &point, &normal, model_m).0 {
+            score += match hinge.ask(sight, &point, &normal, range.model_m).0 {
                 Says::Met => 1.0,
                 Says::Through => -1.0,
                 Says::Hidden | Says::Blank | Says::Outside => 0.0,
@@ -178,7 +138,7 @@ fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, model_m: f64) -> f64
 /// A board followed from the hinge outwards, its angle and curl fitted to what is met on the way.
 fn follow(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -> Option<ScannedFlap> {
     let mut flap = ScannedFlap { angle_rad: angle, curl: 0.0, length_m: 0.0, met: 0.0, through: 0.0, hidden: 0.0 };
-    for reach in [0.05, 0.1, range.longest_m] {
+    for &reach in range.looks().iter().chain([&range.longest_m]) {
         let walk = walk(sight, hinge, &flap, reach.min(range.longest_m), range);
         flap = walk.fitted(&flap)?;
         if reach >= range.longest_m {
@@ -269,6 +229,9 @@ fn walk(sight: &Sight, hinge: &HingeLine, flap: &ScannedFlap, longest_m: f64, ra
             pending = [0.0; 3];
             last_met = reach;
             out.length_m = reach + ROW_M / 2.0;
+        } else if range.over_hidden && hidden > met + through {
+            // Nothing says that it ends here.
+            last_met += ROW_M;
         }
         reach += ROW_M;
     }

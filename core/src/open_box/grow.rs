@@ -3,7 +3,8 @@
 use super::crease::with_creases;
 use super::evidence::{Evidence, Sheet};
 use super::features::{self, Features};
-use super::hanging::{scan_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
+use super::flap_scan::ScannedFlap;
+use super::hanging::{scan_flaps, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
 use super::owners::Owners;
 use super::refit::refit;
 use super::settle::is_sunk;
@@ -125,7 +126,8 @@ fn sound_solution(solution: Solution) -> Result<Solution, NotFitted> {
     Ok(solution)
 }
 
-/// A flap that was missed, or fitted where little lies, is taken from a scan of its edge where now more is met.
+/// A flap that was missed, or fitted where little lies, is taken from a scan of its edge where now more is met; one that is hidden
+/// near its edge from one that looks further.
 fn look_again(sight: &Sight, solution: Solution, present: Present, settings: &FitSettings) -> (Solution, Present) {
     let mut flaps = scan_flaps(sight, &solution.body, FINE_M, FINE_SCAN);
     let fitted_score = |k: usize| {
@@ -135,10 +137,23 @@ fn look_again(sight: &Sight, solution: Solution, present: Present, settings: &Fi
     for (k, flap) in flaps.iter_mut().enumerate() {
         *flap = flap.filter(|flap| !present.flaps[k] || flap.score() > BETTER * fitted_score(k).max(0.0) + BETTER_PX);
     }
+    let (solution, present) = taken_up(sight, solution, present, &flaps, settings);
+    let hidden = scan_hidden_flaps(sight, &solution.body, FINE_M, present.flaps.map(|is_there| !is_there));
+    taken_up(sight, solution, present, &hidden, settings)
+}
+
+/// Fitted with these flaps too, where more is held then.
+fn taken_up(
+    sight: &Sight,
+    solution: Solution,
+    present: Present,
+    flaps: &[Option<ScannedFlap>; 4],
+    settings: &FitSettings,
+) -> (Solution, Present) {
     if flaps.iter().all(Option::is_none) {
         return (solution, present);
     }
-    let (body, scanned) = with_flaps(&solution.body, &flaps);
+    let (body, scanned) = with_flaps(&solution.body, flaps);
     let both = Present { flaps: std::array::from_fn(|k| present.flaps[k] || scanned.flaps[k]), ..present };
     let mut labels = label(sight, &body, &both, FINE_M, 1);
     drop_unsure(sight, &body, &mut labels);

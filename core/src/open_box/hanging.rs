@@ -1,9 +1,11 @@
 //! What hangs on a body's edges: flaps, and tuck flaps on them.
 
-use super::flap_scan::{scan, HingeLine, ScanRange, ScannedFlap};
+use super::evidence::Sheet;
+use super::flap_scan::{scan, ScanRange, ScannedFlap};
+use super::hinge_line::HingeLine;
 use super::sight::Sight;
 use super::surfaces::Present;
-use crate::fit::{layout, FittedBody};
+use crate::fit::{layout, FittedBody, Role};
 
 /// Pushed a little into the box, to hanging along its side.
 const FLAP_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
@@ -30,8 +32,25 @@ pub fn scan_flaps(
             model_m,
             peaks,
             columns,
+            over_hidden: false,
         };
         scan(sight, &HingeLine::of_side(body, k), &range).filter(is_flap)
+    })
+}
+
+/// The same, of those edges that are asked for, beyond what hides the flaps near their hinges.
+pub fn scan_hidden_flaps(
+    sight: &Sight,
+    body: &FittedBody,
+    model_m: f64,
+    is_asked: [bool; 4],
+) -> [Option<ScannedFlap>; 4] {
+    let [peaks, columns] = FINE_SCAN;
+    std::array::from_fn(|k| {
+        let longest_m = LONGEST_SHARE * body.edge_m(k + 1) + LONGER_M;
+        let range = ScanRange { angles_rad: FLAP_ANGLES_RAD, longest_m, model_m, peaks, columns, over_hidden: true };
+        let found = is_asked[k].then(|| scan(sight, &HingeLine::of_side(body, k), &range))?;
+        found.filter(is_flap)
     })
 }
 
@@ -62,18 +81,53 @@ pub fn with_flaps(body: &FittedBody, flaps: &[Option<ScannedFlap>; 4]) -> (Fitte
     (out, present)
 }
 
-/// The tuck flap on each flap's free edge.
-pub fn scan_tucks(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64) -> [Option<ScannedFlap>; 4] {
+/// A tuck flap, and how long its flap is then.
+#[derive(Debug, Clone, Copy)]
+pub struct ScannedTuck {
+    pub tuck: ScannedFlap,
+    pub flap_length_m: f64,
+}
+
+/// A flap was followed beyond its crease by as much.
+const FOLLOWED_TOO_FAR_M: [f64; 6] = [0.0, 0.01, 0.02, 0.03, 0.045, 0.06];
+
+/// The tuck flap on each flap's free edge, or where the flap's surface bends before it.
+pub fn scan_tucks(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64) -> [Option<ScannedTuck>; 4] {
     std::array::from_fn(|k| {
         if !present.flaps[k] {
             return None;
         }
-        let longest_m = (TUCK_SHARE * body.get(layout::flap(k) + layout::FLAP_LENGTH)).min(MOST_TUCK_M);
-        let [peaks, columns] = FINE_SCAN;
-        let range = ScanRange { angles_rad: TUCK_ANGLES_RAD, longest_m, model_m, peaks, columns };
-        scan(sight, &HingeLine::of_flap(body, k), &range).filter(is_flap)
+        let found = FOLLOWED_TOO_FAR_M.iter().filter_map(|&less_m| scan_tuck(sight, body, k, less_m, model_m));
+        let best = found.fold(None, |best: Option<(f64, ScannedTuck)>, one| match best {
+            Some(best) if best.0 >= one.0 => Some(best),
+            _ => Some(one),
+        });
+        best.map(|(_, tuck)| tuck)
     })
 }
+
+/// The tuck flap of a flap that is shorter than it was fitted, and the readings that both hold more than the flap did.
+fn scan_tuck(sight: &Sight, body: &FittedBody, k: usize, less_m: f64, model_m: f64) -> Option<(f64, ScannedTuck)> {
+    let length_m = body.get(layout::flap(k) + layout::FLAP_LENGTH);
+    let flap_length_m = length_m - less_m;
+    if less_m > 0.0 && flap_length_m < (1.0 - TUCK_SHARE) * length_m {
+        return None;
+    }
+    let mut shorter = body.clone();
+    shorter.numbers[layout::flap(k) + layout::FLAP_LENGTH] = flap_length_m;
+    let longest_m = (TUCK_SHARE * flap_length_m).min(MOST_TUCK_M);
+    let [peaks, columns] = FINE_SCAN;
+    let range = ScanRange { angles_rad: TUCK_ANGLES_RAD, longest_m, model_m, peaks, columns, over_hidden: false };
+    let tuck = scan(sight, &HingeLine::of_flap(&shorter, k), &range).filter(is_flap)?;
+    let sheet = Sheet::new(body, Role::Flap(k), &sight.eye);
+    let given_up = if less_m > 0.0 { sheet.met_between(sight, [flap_length_m, length_m], model_m) } else { 0.0 };
+    let more = tuck.score() - given_up;
+    // A flap that is flat on bends nowhere.
+    let is_bent = less_m == 0.0 || (tuck.angle_rad.abs() > BENT_RAD && more > LEAST_MET);
+    is_bent.then_some((more, ScannedTuck { tuck, flap_length_m }))
+}
+
+const BENT_RAD: f64 = 0.2;
 
 pub const TUCK_LESS_THAN_FLAP_M: f64 = 0.01;
 /// A tuck flap is at most so long, and this share of its flap.
@@ -82,11 +136,12 @@ const TUCK_SHARE: f64 = 0.45;
 const TUCK_ANGLES_RAD: [f64; 2] = [-1.9, 2.2];
 
 /// The body with these tuck flaps.
-pub fn with_tucks(body: &FittedBody, present: &Present, tucks: &[Option<ScannedFlap>; 4]) -> (FittedBody, Present) {
+pub fn with_tucks(body: &FittedBody, present: &Present, tucks: &[Option<ScannedTuck>; 4]) -> (FittedBody, Present) {
     let (mut out, mut present) = (body.clone(), *present);
     for (k, tuck) in tucks.iter().enumerate() {
-        let Some(tuck) = tuck else { continue };
+        let Some(ScannedTuck { tuck, flap_length_m }) = tuck else { continue };
         present.tucks[k] = true;
+        out.numbers[layout::flap(k) + layout::FLAP_LENGTH] = *flap_length_m;
         out.numbers[layout::tuck(k) + layout::TUCK_ANGLE] = tuck.angle_rad;
         out.numbers[layout::tuck(k) + layout::TUCK_LENGTH] = tuck.length_m;
         out.numbers[layout::tuck(k) + layout::TUCK_WIDTH] =

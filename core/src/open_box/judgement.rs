@@ -3,36 +3,42 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::features::{Features, BOX_FEATURES, PART_FEATURES};
+use super::trees::Tree;
 use crate::error::{InputError, Result};
 
-/// Learned weights of what a fitted box, and each of its panels, is judged by: logistic regressions (eq. 90).
+/// Learned weights, and trees, of what a fitted box, and each of its panels, is judged by (eq. 90).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Judgement {
     #[serde(rename = "box")]
-    of_box: BTreeMap<String, f64>,
+    of_box: Odds,
     #[serde(rename = "part")]
-    of_part: BTreeMap<String, f64>,
+    of_part: Odds,
 }
+
+/// Log odds of named features: their weighted sum, and what trees of the same features add.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct Odds {
+    weights: BTreeMap<String, f64>,
+    trees: Vec<Tree>,
+    /// The least probability of what is told.
+    told_from: f64,
+}
+
+/// The term that is the sum of all trees.
+const TREES: &str = "trees";
 
 impl Judgement {
     /// From the text of a judgement file.
     ///
     /// # Errors
-    /// Names what is missing, what is not known, and what is no number.
+    /// Names what is missing, what is not known, and what is no number or tree.
     pub fn from_json(text: &str) -> Result<Self> {
         let read: Self =
             serde_json::from_str(text).map_err(|e| InputError::new(e.to_string()).in_source("judgement"))?;
-        for (table, weights, known) in
+        for (table, odds, known) in
             [("box", &read.of_box, &BOX_FEATURES[..]), ("part", &read.of_part, &PART_FEATURES[..])]
         {
-            let wrong = known
-                .iter()
-                .find(|name| !weights.contains_key(**name))
-                .map(|name| format!("has no weight of {name}"))
-                .or_else(|| {
-                    weights.keys().find(|name| !known.contains(&name.as_str())).map(|n| format!("{n} is not known"))
-                });
-            if let Some(wrong) = wrong {
+            if let Some(wrong) = odds.wrong(known) {
                 let mend = format!("it weighs {}", known.join(", "));
                 return Err(InputError::new(format!("judgement.{table}: {wrong}")).mend(mend));
             }
@@ -40,15 +46,44 @@ impl Judgement {
         Ok(read)
     }
 
-    /// Each feature with its weight, and the sum: the log of the odds that the box is one.
+    /// Each feature with its weight, the trees' sum with the weight 1, and the sum of all: the log of the odds that the box is one.
     pub fn of_box(&self, features: &Features) -> (f64, Vec<(&'static str, f64, f64)>) {
-        let terms: Vec<_> = features.iter().map(|&(name, value)| (name, value, self.of_box[name])).collect();
+        let terms = self.of_box.terms(features);
         (terms.iter().map(|(_, value, weight)| value * weight).sum(), terms)
+    }
+
+    /// The least probability of a box that is told.
+    pub fn box_told_from(&self) -> f64 {
+        self.of_box.told_from
+    }
+
+    /// The least probability of a panel that is told.
+    pub fn part_told_from(&self) -> f64 {
+        self.of_part.told_from
     }
 
     /// The probability that a panel's readings are that panel's.
     pub fn part_probability(&self, features: &Features) -> f64 {
-        probability(features.iter().map(|(name, value)| value * self.of_part[*name]).sum())
+        probability(self.of_part.terms(features).iter().map(|(_, value, weight)| value * weight).sum())
+    }
+}
+
+impl Odds {
+    /// What is wrong with them where the features have these names.
+    fn wrong(&self, known: &[&str]) -> Option<String> {
+        let missing = known.iter().find(|name| !self.weights.contains_key(**name));
+        let named = self.weights.keys().map(String::as_str).chain(self.trees.iter().flat_map(Tree::features));
+        let unknown = named.into_iter().find(|name| !known.contains(name));
+        let is_share = (0.0..=1.0).contains(&self.told_from);
+        missing
+            .map(|name| format!("has no weight of {name}"))
+            .or_else(|| unknown.map(|name| format!("{name} is not known")))
+            .or_else(|| (!is_share).then(|| format!("told_from: {} is no probability", self.told_from)))
+    }
+
+    fn terms(&self, features: &Features) -> Vec<(&'static str, f64, f64)> {
+        let weighed = features.iter().map(|&(name, value)| (name, value, self.weights[name]));
+        weighed.chain([(TREES, self.trees.iter().map(|tree| tree.at(features)).sum(), 1.0)]).collect()
     }
 }
 

@@ -11,9 +11,6 @@ use crate::open_box::{self, open_boxes, FoundBox, Judgement, Kinds, Refusal, Ref
 use crate::perception::readings::Readings;
 use crate::perception::Scene;
 
-/// A box where there is none costs more than one that is missed: its odds must be better than even.
-const LEAST_PROBABILITY: f64 = 0.6;
-
 /// An object has at least so many panels with enough readings.
 const LEAST_PANELS: usize = 3;
 
@@ -83,8 +80,9 @@ fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Tel
     let (number, probability) = kinds.choose(&shape, templates)?;
     let told = open_box::answer(one, templates[number], probability, sights, sizes, settings, *judgement);
     let (object, parts) = told?;
-    if let Some(probability) = object.probability.filter(|p| *p < LEAST_PROBABILITY) {
-        return Some(Refusal::Improbable { probability, least: LEAST_PROBABILITY });
+    let least = judgement.map_or(0.0, Judgement::box_told_from);
+    if let Some(probability) = object.probability.filter(|p| *p < least) {
+        return Some(Refusal::Improbable { probability, least });
     }
     if open_box::may_be_closed(one) {
         return Some(Refusal::MayBeClosed);

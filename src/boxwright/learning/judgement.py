@@ -1,4 +1,4 @@
-"""Learns how a fitted box, and each of its panels, is judged: two logistic regressions (docs/maths.md, eq. 90)."""
+"""Learns how a fitted box, and each of its panels, is judged: weights mended by trees (docs/maths.md, eq. 90)."""
 
 from __future__ import annotations
 
@@ -14,13 +14,16 @@ from boxwright import _core
 from boxwright.evaluation import Answer, BoxScore, LabelledFrame, SetEntry, read_entry, score_answer
 from boxwright.io.clouds import read_cloud
 from boxwright.io.labels import PointLabels
+from boxwright.learning.boosting import Tree, fit_trees
 from boxwright.models import load_object_model
 from boxwright.parallel import ordered_map
 from boxwright.types.model import Object
 
-RIDGE = 2.0
+RIDGE = 100.0
 """Weight of the squared coefficients, of features scaled to a spread of 1, against one example."""
 STEPS = 60
+TOLD_FROM = 0.5
+"""Told is what has this probability or more."""
 RIGHT_SHARE = 0.25
 """A box is right when its right less its wrong panels are at least this share of those in the cloud."""
 
@@ -48,18 +51,33 @@ class JudgementReport(msgspec.Struct, frozen=True, kw_only=True):
     wrong_parts: int
 
 
-class LearnedJudgement(msgspec.Struct, frozen=True, kw_only=True):
-    """Weights by the features' names; log odds are their sums (`boxwright.judgement`, version 1)."""
+class Odds(msgspec.Struct, frozen=True, kw_only=True):
+    """Log odds: the weighted sum of the features, and what each tree adds."""
 
-    box: dict[str, float]
-    part: dict[str, float]
+    weights: dict[str, float]
+    trees: list[Tree]
+    told_from: float
+    """Told is what has this probability or more."""
+
+
+class LearnedJudgement(msgspec.Struct, frozen=True, kw_only=True):
+    """How a box and a part are judged (`boxwright.judgement`, version 2)."""
+
+    box: Odds
+    part: Odds
     training: JudgementReport
     format: Literal["boxwright.judgement"] = "boxwright.judgement"
-    version: Literal[1] = 1
+    version: Literal[2] = 2
 
     def save(self, path: str | Path) -> None:
-        """Writes the weights as JSON."""
-        Path(path).write_bytes(msgspec.json.format(msgspec.json.encode(self), indent=1) + b"\n")
+        """Writes it as JSON, each tree on a line."""
+        bare = [msgspec.structs.replace(odds, trees=[]) for odds in (self.box, self.part)]
+        told = msgspec.json.encode(msgspec.structs.replace(self, box=bare[0], part=bare[1]))
+        text = msgspec.json.format(told, indent=1).decode()
+        for odds in (self.box, self.part):
+            lines = ",\n".join(f"   {msgspec.json.encode(tree).decode()}" for tree in odds.trees)
+            text = text.replace('"trees": []', f'"trees": [\n{lines}\n  ]', 1)
+        Path(path).write_text(text + "\n", encoding="utf-8")
 
 
 class Examples(msgspec.Struct, frozen=True):
@@ -76,40 +94,72 @@ def learn_judgement(
 
     Raises ValueError where a frame cannot be used, or where the frames hold no right box or no false one.
     """
-    examples = list(_seen(entries, jobs, progress))
-    boxes = [example for frame in examples for example in frame.boxes]
-    parts = [example for frame in examples for example in frame.parts]
-    for name, found in (("box", boxes), ("part", parts)):
-        if len({is_right for _, is_right in found}) < 2:
-            raise ValueError(f"the frames show no right and wrong {name} to tell apart; add frames, empty ones too")
+    before = list(_seen(entries, None, jobs, lambda line: progress(f"unjudged: {line}")))
+    first = _fitted(before, told_from=0.0)
+    text = msgspec.json.encode({"box": first[0], "part": first[1]}).decode()
+    # A judgement chooses among rivals, so that it meets others than those that it learnt from.
+    judged = list(_seen(entries, text, jobs, lambda line: progress(f"judged: {line}")))
+    examples = before + judged
+    box, part = _fitted(examples, TOLD_FROM)
+    boxes = [is_right for frame in examples for _, is_right in frame.boxes]
+    parts = [is_right for frame in examples for _, is_right in frame.parts]
     return LearnedJudgement(
-        box=fit_logistic(boxes),
-        part=fit_logistic(parts),
+        box=box,
+        part=part,
         training=JudgementReport(
             command=command,
             frames=len(entries),
             boxes=len(boxes),
-            false_boxes=sum(not is_right for _, is_right in boxes),
+            false_boxes=boxes.count(False),
             parts=len(parts),
-            wrong_parts=sum(not is_right for _, is_right in parts),
+            wrong_parts=parts.count(False),
         ),
     )
 
 
-def _seen(entries: Sequence[SetEntry], jobs: int, progress: Callable[[str], None]) -> Iterator[Examples]:
+def _fitted(examples: Sequence[Examples], told_from: float) -> tuple[Odds, Odds]:
+    """Of boxes and of parts."""
+    found = {
+        "box": [example for frame in examples for example in frame.boxes],
+        "part": [example for frame in examples for example in frame.parts],
+    }
+    for name, told in found.items():
+        if len({is_right for _, is_right in told}) < 2:
+            raise ValueError(f"the frames show no right and wrong {name} to tell apart; add frames, empty ones too")
+    box, part = (fit_odds(told, told_from) for told in found.values())
+    return box, part
+
+
+def fit_odds(examples: Sequence[tuple[dict[str, float], bool]], told_from: float) -> Odds:
+    """A logistic regression, and the trees that mend it."""
+    weights = fit_logistic(examples)
+    return Odds(weights=weights, trees=fit_trees(examples, weights), told_from=told_from)
+
+
+def _seen(
+    entries: Sequence[SetEntry], judgement: str | None, jobs: int, progress: Callable[[str], None]
+) -> Iterator[Examples]:
     # Of the templates only the names of the parts are used: this one has all that a box may have.
     _, model = load_object_model("cake_box", None, "exact")
-    for done, examples in enumerate(ordered_map(lambda entry: examples_of(entry, model), entries, jobs), 1):
+    for done, examples in enumerate(ordered_map(lambda entry: examples_of(entry, model, judgement), entries, jobs), 1):
         if done % 50 == 0:
             progress(f"{done} of {len(entries)} frames")
         yield examples
 
 
-def examples_of(entry: SetEntry, model: _core.ObjectModel) -> Examples:
-    """What is found in one frame before anything is judged, and whether it is right."""
+def examples_of(entry: SetEntry, model: _core.ObjectModel, judgement: str | None = None) -> Examples:
+    """What is found in one frame, and whether it is right: unjudged, or as a judgement chooses that tells all."""
     frame = read_entry(entry)
     cloud = read_cloud(entry.cloud_path)
-    _, answer = _core.infer(cloud.points, cloud.width, cloud.height, [model], viewpoint=cloud.viewpoint, fitted=True)
+    _, answer = _core.infer(
+        cloud.points,
+        cloud.width,
+        cloud.height,
+        [model],
+        viewpoint=cloud.viewpoint,
+        fitted=True,
+        judgement=judgement,
+    )
     objects = tuple(_OBJECT.decode(text) for text in answer.objects_json())
     features = tuple(_FEATURES.decode(text) for text in answer.features_json())
     labels = PointLabels(object=answer.object_labels, part=answer.part_labels)

@@ -1,0 +1,93 @@
+//! Edges that a board may hang on.
+
+use super::sight::{Says, Sight};
+use crate::fit::{flap_end, layout, FittedBody, Rim};
+use crate::geometry::{Plane, Vec3};
+
+const HALF_BOARD_M: f64 = 0.003;
+
+/// An edge that a board may hang on, in the level frame.
+#[derive(Debug, Clone, Copy)]
+pub struct HingeLine {
+    pub middle: Vec3,
+    pub along: Vec3,
+    /// Position 0 and position pi/2, unit vectors square to the edge.
+    pub closed: Vec3,
+    pub up: Vec3,
+    /// From the edge into the panel that it belongs to.
+    pub parent: Vec3,
+    pub half_m: f64,
+    /// The base's upper face; the support is level.
+    base: Plane,
+}
+
+impl HingeLine {
+    /// The top edge of side `k`.
+    pub fn of_side(body: &FittedBody, k: usize) -> Self {
+        let rim = Rim::new(body, k);
+        let turn = body.input_from_object.rotation;
+        let (along, inward) = rim.directions();
+        Self {
+            middle: body.to_input(&rim.place(0.0, 0.0, 0.0)),
+            along: turn * along,
+            closed: turn * inward,
+            up: turn * Vec3::z(),
+            parent: -(turn * Vec3::z()),
+            half_m: body.edge_m(k) / 2.0,
+            base: base_plane(body),
+        }
+    }
+
+    /// The free edge of flap `k`, for its tuck flap.
+    pub fn of_flap(body: &FittedBody, k: usize) -> Self {
+        let rim = Rim::new(body, k);
+        let [inward, above] = flap_end(body, k);
+        let turn = body.input_from_object.rotation;
+        let (along, across) = rim.directions();
+        let (sin, cos) = body.get(layout::flap(k) + layout::FLAP_ANGLE).sin_cos();
+        let way = turn * (across * cos + Vec3::z() * sin);
+        Self {
+            middle: body.to_input(&rim.place(body.get(layout::flap(k) + layout::FLAP_OFFSET), inward, above)),
+            along: turn * along,
+            closed: way,
+            // A tuck flap's position grows against its flap's.
+            up: turn * (across * sin - Vec3::z() * cos),
+            parent: -way,
+            half_m: body.get(layout::flap(k) + layout::FLAP_WIDTH) / 2.0
+                - body.get(layout::flap(k) + layout::FLAP_TAPER),
+            base: base_plane(body),
+        }
+    }
+
+    /// What the camera says of a point of a board on the edge; a reading of the panel that the edge belongs to, of
+    /// the base or of the support says nothing.
+    pub fn ask(&self, sight: &Sight, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<Vec3>) {
+        let (says, reading) = sight.ask(point, normal, model_m);
+        let Some((reading, _)) = reading else { return (says, None) };
+        let from = reading - self.middle;
+        let off = self.parent.cross(&self.along).dot(&from).abs();
+        let on_parent = self.parent.dot(&from) > -0.002 && off < model_m + HALF_BOARD_M;
+        if says == Says::Met && (on_parent || self.is_ground(sight, &reading, model_m)) {
+            return (Says::Blank, None);
+        }
+        (says, Some(reading))
+    }
+
+    fn is_ground(&self, sight: &Sight, reading: &Vec3, model_m: f64) -> bool {
+        let ray = reading - sight.eye;
+        let range = ray.norm();
+        let tolerance = sight.tolerance_m(range, ray.z / range, model_m);
+        reading.z.abs() < tolerance || self.base.height_of(reading).abs() < tolerance
+    }
+
+    pub fn directions(&self, angle: f64) -> (Vec3, Vec3) {
+        let (sin, cos) = angle.sin_cos();
+        (self.closed * cos + self.up * sin, self.up * cos - self.closed * sin)
+    }
+}
+
+fn base_plane(body: &FittedBody) -> Plane {
+    let normal = body.input_from_object.rotation * Vec3::z();
+    let distance = normal.dot(&body.input_from_object.translation.vector) + body.get(layout::THICKNESS);
+    Plane { normal, distance }
+}
