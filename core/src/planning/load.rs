@@ -135,13 +135,28 @@ impl Stand {
         let drag_n = DRAG_SHARE * force_n.norm();
         let along_n = (level_n.norm_squared() + turn_n.powi(2) + drag_n.powi(2)).sqrt();
         let slides = (along_n + self.friction * lift_n) / (self.friction * self.weight_n);
-        (0..4).fold(slides, |worst, k| {
+        self.edges().into_iter().fold(slides, |worst, (p, outward, lever_m)| {
+            let over_n_m = level_n.dot(&outward) * (at - p).dot(&self.up) + lift_n * (p - at).dot(&outward);
+            worst.max(over_n_m / (self.weight_n * lever_m))
+        })
+    }
+
+    /// The same of a couple (N m): it tips the box, and slides nothing.
+    pub fn strain_of_couple(&self, couple_n_m: &Vec3) -> f64 {
+        let tipping = self
+            .edges()
+            .map(|(_, outward, lever_m)| couple_n_m.dot(&self.up.cross(&outward)) / (self.weight_n * lever_m));
+        tipping.into_iter().fold(0.0, f64::max)
+    }
+
+    /// Of each edge of the base: an end, the unit vector out of the base, and how far it is from the base's middle.
+    fn edges(&self) -> [(Vec3, Vec3, f64); 4] {
+        let centre = self.base.iter().sum::<Vec3>() / 4.0;
+        std::array::from_fn(|k| {
             let (p, q) = (self.base[k], self.base[(k + 1) % 4]);
             let outward = (q - p).cross(&self.up).normalize();
             let outward = if outward.dot(&(centre - p)) > 0.0 { -outward } else { outward };
-            let lever_m = (p - centre).dot(&outward);
-            let over_n_m = level_n.dot(&outward) * (at - p).dot(&self.up) + lift_n * (p - at).dot(&outward);
-            worst.max(over_n_m / (self.weight_n * lever_m))
+            (p, outward, (p - centre).dot(&outward))
         })
     }
 }

@@ -17,7 +17,7 @@ use crate::arm::{Arm, JointPositions};
 use crate::geometry::Vec3;
 
 /// A flap's closing: postures close together, each part beginning where the one before ends.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct PushMotion {
     pub approach: Vec<JointPositions>,
     pub push: Vec<JointPositions>,
@@ -27,6 +27,10 @@ pub struct PushMotion {
     pub retreat: Vec<JointPositions>,
     /// Where all flaps are meanwhile, rad: those that are closed give way.
     pub meanwhile_rad: Vec<f64>,
+    /// The free gap between the fingers.
+    pub opening_m: f64,
+    /// What turns the flap first, until this can push it.
+    pub first: Option<Box<PushMotion>>,
 }
 
 /// Plans the push of one flap.
@@ -143,6 +147,8 @@ impl<G: Guard> Pusher<'_, G> {
             contact: Vec::new(),
             retreat: Vec::new(),
             meanwhile_rad: layers.moment.angles_rad.clone(),
+            opening_m: self.arm.gripper.opening_m[0],
+            first: None,
         };
         let mut last = start;
         for step in 0..=steps {
@@ -184,11 +190,7 @@ impl<G: Guard> Pusher<'_, G> {
             (None, None, Some(other)) => (Status::Blocked, other),
             (None, None, None) => (Status::Unreachable, &Obstacle::Reach),
         };
-        let by_flaps = tally.any(|obstacle| match obstacle {
-            Obstacle::Near { other, .. } => !self.contacts.flap.is_own(other) && other.starts_with(['f', 't']),
-            Obstacle::Something => true,
-            _ => false,
-        });
+        let by_flaps = tally.any(|obstacle| obstacle.is_flap_beside(self.contacts.flap));
         let moves_box = tally.any(|obstacle| *obstacle == Obstacle::Moves);
         WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, at_start, moves_box, searched: true }
     }

@@ -8,7 +8,7 @@ use super::push::{PushMotion, Pusher};
 use super::reason::{Tally, WhyNot};
 use super::settings::PlanningSettings;
 use super::transit::Transit;
-use crate::arm::JointPositions;
+use crate::arm::{Arm, JointPositions};
 
 /// One flap's searches, and where the flaps are before, during and after them.
 pub struct Search<'a, 'b, G: Guard> {
@@ -61,16 +61,9 @@ impl<G: Guard> Search<'_, '_, G> {
         Err(pusher.why_stuck(self.angles_rad[layer], layer == 0, &tally))
     }
 
-    /// Do a motion's ends lie open, so that the arm finds from one to its ready pose and from there to the other?
     fn comes_and_goes(&self, motion: &PushMotion) -> bool {
         let Pusher { arm, guard, settings, .. } = self.pusher;
-        let settings = PlanningSettings { transit_tries: POCKET_TRIES, ..(*settings).clone() };
-        let leads = |end: Option<&JointPositions>, moment: &Moment| {
-            let transit =
-                Transit { arm, guard: *guard, settings: &settings, moment, step_rad: settings.joint_step_rad };
-            end.is_some_and(|end| transit.is_connected(end, &arm.ready))
-        };
-        leads(motion.approach.first(), &self.before) && leads(motion.retreat.last(), &self.after)
+        comes_and_goes(arm, *guard, settings, motion, (&self.before, &self.after))
     }
 
     /// The first of the paths that holds between its layers too and whose ends lie open, else the layer at which they end and what was in the way.
@@ -99,6 +92,22 @@ impl<G: Guard> Search<'_, '_, G> {
         }
         Err((self.angles_rad.len() - 1, tally))
     }
+}
+
+/// Do a motion's ends lie open, before and after it, so that the arm finds from one to its ready pose and from there to the other?
+pub fn comes_and_goes<G: Guard>(
+    arm: &Arm,
+    guard: &G,
+    settings: &PlanningSettings,
+    motion: &PushMotion,
+    (before, after): (&Moment, &Moment),
+) -> bool {
+    let settings = PlanningSettings { transit_tries: POCKET_TRIES, ..settings.clone() };
+    let leads = |end: Option<&JointPositions>, moment: &Moment| {
+        let transit = Transit { arm, guard, settings: &settings, moment, step_rad: settings.joint_step_rad };
+        end.is_some_and(|end| transit.is_connected(end, &arm.ready))
+    };
+    leads(motion.approach.first(), before) && leads(motion.retreat.last(), after)
 }
 
 /// How hard it is tried to get out of where a motion ends, and how many paths are given up for it.

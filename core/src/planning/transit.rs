@@ -247,6 +247,10 @@ mod tests {
         fn tool_conflict(&self, _: &Rigid, _: &Moment, _: f64) -> Option<Obstacle> {
             None
         }
+
+        fn with_opening(&self, _: f64) -> Self {
+            Self
+        }
     }
 
     #[test]
