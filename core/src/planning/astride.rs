@@ -1,4 +1,4 @@
-//! The open fingers astride a flap's free edge: where they are on it, and how wide.
+//! The open fingers astride a flap's board: where they are on it, how they lean, and how wide they are open.
 
 use nalgebra::Matrix3;
 
@@ -6,85 +6,133 @@ use super::flap::Flap;
 use super::settings::ForkSettings;
 use crate::arm::{Arm, Shape};
 use crate::collision::{signed_distance_m, OrientedBox, Solid};
-use crate::geometry::{Rigid, Vec3};
+use crate::geometry::rigid::{turn, Rigid};
+use crate::geometry::Vec3;
 
-/// How the fingers go over the edge, whatever place along it.
+/// A place of the fingers on a flap, in its frame. They come to it flat, then lean ahead of the flap as it closes, until the outer finger
+/// pushes from outside near the free edge, and the inner one holds against it nearer to the hinge.
 #[derive(Debug, Clone, Copy)]
-pub struct Shaped {
-    /// Rotation flap_from_tool.
-    rotation: Matrix3<f64>,
-    /// From the pivot, where the tool's axis passes through the board, to the tool point.
+pub struct Astride {
+    /// flap_from_tool's rotation where it does not lean.
+    flat: Matrix3<f64>,
+    /// It leans by the right hand about this.
+    axis: Vec3,
+    pub lean_rad: f64,
+    /// Where the tool's axis passes through the middle of the board, and from there to the tool point.
+    pub pivot: Vec3,
     tip_m: f64,
-    /// How far the pivot is from the free edge.
-    inset_m: f64,
     pub opening_m: f64,
     /// How far the flap turns between the fingers.
     pub slack_rad: f64,
+    /// How much of the couple turns the box about what is square to its hinge in the board, for each of what turns the flap.
+    pub twist: f64,
 }
 
-/// A tool's frame told in the flap's.
-#[derive(Debug, Clone, Copy)]
-pub struct Astride {
-    pub flap_from_tool: Rigid,
-    /// Where the outer finger meets the free edge: along the hinge.
-    pub along_m: f64,
+/// All of them, the likeliest first.
+pub fn all_astride(arm: &Arm, flap: &Flap, thickness_m: f64, settings: &ForkSettings) -> Vec<Astride> {
+    let one_sided = |found: Vec<Astride>| {
+        let flipped = found.into_iter().flat_map(|astride| [astride, astride.flipped()]);
+        let open = flipped.filter_map(|astride| astride.opened(arm, flap, thickness_m, settings.gap_m));
+        open.collect::<Vec<_>>()
+    };
+    let [straight, turned] = [true, false].map(|is_straight| {
+        let yaws = settings.yaws_rad.iter().filter(|yaw_rad| (**yaw_rad == 0.0) == is_straight);
+        yaws.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, settings)).collect::<Vec<_>>()
+    });
+    let over_ends = over_ends(arm, flap, settings);
+    [straight, turned, over_ends].into_iter().flat_map(one_sided).collect()
 }
 
-impl Shaped {
-    /// All ways of going over a flap's edge, the likeliest first: tilted ahead of the flap as it closes, so that the outer finger pushes
-    /// its edge in and the tip of the inner one holds against it, nearer to the hinge.
-    pub fn all(arm: &Arm, flap: &Flap, thickness_m: f64, settings: &ForkSettings) -> Vec<Self> {
-        let mut found = Vec::new();
-        for share in settings.depths {
-            for &tilt_rad in &settings.tilts_rad {
-                for &yaw_rad in &settings.yaws_rad {
-                    let reach_m = (flap.length_m() - settings.least_tip_m) / yaw_rad.cos();
-                    let depth_m = reach_m.min(settings.most_depth_m) * share;
-                    if depth_m < settings.least_depth_m {
-                        continue;
-                    }
-                    let flips = [1.0, -1.0].map(|side| rotation(yaw_rad, tilt_rad, side));
-                    found.extend(flips.into_iter().filter_map(|rotation| {
-                        let (tip_m, inset_m) = (depth_m / 2.0, depth_m / 2.0 * yaw_rad.cos());
-                        let slack_rad = 2.0 * settings.gap_m / depth_m;
-                        let closed = Self { rotation, tip_m, inset_m, opening_m: 0.0, slack_rad };
-                        let opening_m = closed.least_opening_m(arm, flap, thickness_m, settings.gap_m)?;
-                        Some(Self { opening_m, ..closed })
-                    }));
-                }
-            }
+/// Over the free edge, the tool's axis turned in the board by `yaw_rad` from straight to the hinge.
+fn over_edge(flap: &Flap, yaw_rad: f64, settings: &ForkSettings) -> Vec<Astride> {
+    let toward = Vec3::new(yaw_rad.sin(), -yaw_rad.cos(), 0.0);
+    let mut found = Vec::new();
+    let reach_m = (flap.length_m() - settings.least_tip_m) / yaw_rad.cos();
+    for depth_m in settings.depths.map(|share| reach_m.min(settings.most_depth_m) * share) {
+        if depth_m < settings.least_depth_m {
+            continue;
         }
-        found
+        for &lean_rad in &settings.leans_rad {
+            let away_m = flap.length_m() - depth_m / 2.0 * yaw_rad.cos();
+            found.extend(places(flap, settings).into_iter().map(|along_m| Astride {
+                flat: Matrix3::from_columns(&[Vec3::z().cross(&toward), Vec3::z(), toward]),
+                axis: Vec3::z().cross(&toward) * -1.0,
+                lean_rad,
+                pivot: Vec3::new(along_m, away_m, 0.0),
+                tip_m: depth_m / 2.0,
+                opening_m: 0.0,
+                slack_rad: 2.0 * settings.gap_m / depth_m,
+                twist: yaw_rad.tan(),
+            }));
+        }
+    }
+    found
+}
+
+/// Over an end of the flap, the tool's axis along the hinge: across the fingers' width.
+fn over_ends(arm: &Arm, flap: &Flap, settings: &ForkSettings) -> Vec<Astride> {
+    let half_width_m = arm.gripper.finger_size_m.x / 2.0;
+    let depth_m = 2.0 * half_width_m;
+    let away_m = (flap.length_m() - half_width_m - settings.edge_m).max(settings.least_tip_m + half_width_m);
+    if away_m + half_width_m > flap.length_m() {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    for share in settings.depths {
+        let reach_m = settings.most_depth_m * share;
+        for &lean_rad in &settings.leans_rad {
+            found.extend([1.0, -1.0].map(|side| {
+                let toward = Vec3::x() * side;
+                let end_m = flap.edge_m()[usize::from(side < 0.0)];
+                Astride {
+                    flat: Matrix3::from_columns(&[Vec3::z().cross(&toward), Vec3::z(), toward]),
+                    axis: -Vec3::x(),
+                    lean_rad,
+                    pivot: Vec3::new(end_m + side * reach_m / 2.0, away_m, 0.0),
+                    tip_m: reach_m / 2.0,
+                    opening_m: 0.0,
+                    slack_rad: 2.0 * settings.gap_m / depth_m,
+                    twist: 0.0,
+                }
+            }));
+        }
+    }
+    found
+}
+
+/// Along the free edge, its middle first.
+fn places(flap: &Flap, settings: &ForkSettings) -> Vec<f64> {
+    let [low, high] = flap.edge_m();
+    let (middle_m, half_m) = ((low + high) / 2.0, (high - low) / 2.0 - settings.inset_m);
+    let count = settings.places as i32;
+    let steps = (1..=count).flat_map(|k| [k, -k]).map(|k| f64::from(k) / f64::from(count));
+    let shares = std::iter::once(0.0).chain(steps.filter(|_| half_m > 0.0));
+    shares.map(|share| middle_m + share * half_m).collect()
+}
+
+impl Astride {
+    /// flap_from_tool where it leans by a share of what it leans in the end.
+    pub fn flap_from_tool(&self, share: f64) -> Rigid {
+        let rotation = turn(&self.axis, share * self.lean_rad) * self.flat;
+        Rigid::new(rotation, self.pivot + Vec3::from(rotation.column(2)) * self.tip_m)
     }
 
-    /// The places along the free edge, its middle first.
-    pub fn places(&self, flap: &Flap, settings: &ForkSettings) -> Vec<Astride> {
-        let [low, high] = flap.edge_m();
-        let (middle_m, half_m) = ((low + high) / 2.0, (high - low) / 2.0 - settings.inset_m);
-        let count = settings.places as i32;
-        let steps = (1..=count).flat_map(|k| [k, -k]).map(|k| f64::from(k) / f64::from(count));
-        let shares = std::iter::once(0.0).chain(steps.filter(|_| half_m > 0.0));
-        shares.map(|share| self.at(flap, middle_m + share * half_m)).collect()
+    /// With the other finger outside.
+    fn flipped(self) -> Self {
+        let half_turn = Matrix3::from_diagonal(&Vec3::new(-1.0, -1.0, 1.0));
+        Self { flat: self.flat * half_turn, ..self }
     }
 
-    fn at(&self, flap: &Flap, along_m: f64) -> Astride {
-        let pivot = Vec3::new(along_m, flap.length_m() - self.inset_m, 0.0);
-        let axis = Vec3::from(self.rotation.column(2));
-        Astride { flap_from_tool: Rigid::new(self.rotation, pivot + axis * self.tip_m), along_m }
-    }
-
-    /// The least opening at which both fingers keep a gap to the board; None where the gripper does not open so far.
-    fn least_opening_m(&self, arm: &Arm, flap: &Flap, thickness_m: f64, gap_m: f64) -> Option<f64> {
-        let frame = flap.frame(0.0).base_from_flap();
-        let board = OrientedBox::of_panel(&flap.corners(0.0), thickness_m)?;
-        let [low, high] = flap.edge_m();
-        let base_from_tool = frame.then(&self.at(flap, (low + high) / 2.0).flap_from_tool);
-        let tool_from_flange = arm.gripper.flange_from_tool().inverse();
+    /// Opened as far as leaves a gap between board and fingers where they lean; None where the gripper does not open so far.
+    fn opened(self, arm: &Arm, flap: &Flap, thickness_m: f64, gap_m: f64) -> Option<Self> {
+        let board = Solid::Box(OrientedBox::of_panel(&flap.corners(0.0), thickness_m)?);
+        let base_from_tool = flap.frame(0.0).base_from_flap().then(&self.flap_from_tool(1.0));
+        let base_from_flange = base_from_tool.then(&arm.gripper.flange_from_tool().inverse());
         let is_clear = |opening_m: f64| {
             arm.gripper.fingers(opening_m).iter().all(|finger| match finger {
                 Shape::Box { body_from_box, half_m } => {
-                    let placed = OrientedBox::new(base_from_tool.then(&tool_from_flange).then(body_from_box), *half_m);
-                    signed_distance_m(&Solid::Box(placed), &Solid::Box(board)) >= gap_m
+                    let placed = OrientedBox::new(base_from_flange.then(body_from_box), *half_m);
+                    signed_distance_m(&Solid::Box(placed), &board) >= gap_m
                 }
                 Shape::Capsule { .. } => true,
             })
@@ -101,18 +149,9 @@ impl Shaped {
                 low_m = middle_m;
             }
         }
-        Some(high_m)
+        Some(Self { opening_m: high_m, ..self })
     }
 }
 
 /// Of the range of openings, down to micrometres.
 const HALVINGS: usize = 16;
-
-/// Tool z from the free edge towards the hinge, turned by `yaw_rad` in the board and by `tilt_rad` out of it, so that the tool's rear goes
-/// ahead of the flap as it closes; the fingers, along y, on the board's two sides.
-fn rotation(yaw_rad: f64, tilt_rad: f64, side: f64) -> Matrix3<f64> {
-    let toward = Vec3::new(yaw_rad.sin(), -yaw_rad.cos(), 0.0);
-    let z = toward * tilt_rad.cos() + Vec3::z() * tilt_rad.sin();
-    let y = (Vec3::z() * tilt_rad.cos() - toward * tilt_rad.sin()) * side;
-    Matrix3::from_columns(&[y.cross(&z), y, z])
-}

@@ -1,12 +1,12 @@
 //! Turns a flap with the fingers astride its free edge. A couple loads the box far less than a push that turns the flap as far (eq. 97):
 //! it slides nothing, and tips with less of a lever.
 
-use super::astride::{Astride, Shaped};
+use super::astride::{all_astride, Astride};
 use super::contact::Grip;
 use super::flap::Flap;
 use super::guard::{Guard, Moment};
 use super::line::Lines;
-use super::load::Fold;
+use super::load::{Fold, Stand};
 use super::posture::nearest;
 use super::push::{layers_between, PushMotion};
 use super::reason::{Obstacle, Tally};
@@ -24,6 +24,7 @@ pub struct Fork<'a, G: Guard> {
     pub number: usize,
     pub thickness_m: f64,
     pub fold: Fold,
+    pub stand: Option<&'a Stand>,
     /// Where all flaps are before it.
     pub before: &'a Moment,
 }
@@ -32,7 +33,6 @@ pub struct Fork<'a, G: Guard> {
 struct Held<'a, G: Guard> {
     fork: &'a Fork<'a, G>,
     guard: G,
-    shaped: Shaped,
     astride: Astride,
 }
 
@@ -44,15 +44,28 @@ impl<G: Guard> Fork<'_, G> {
     pub fn plan(&self) -> Result<(PushMotion, f64), Tally> {
         let mut tally = Tally::default();
         self.guard.explain_anew();
-        for shaped in Shaped::all(self.arm, self.flap, self.thickness_m, &self.settings.fork) {
-            for astride in shaped.places(self.flap, &self.settings.fork) {
-                let held = Held { fork: self, guard: self.guard.with_opening(shaped.opening_m), shaped, astride };
-                if let Some(found) = held.plan(&mut tally) {
-                    return Ok(found);
-                }
+        for astride in all_astride(self.arm, self.flap, self.thickness_m, &self.settings.fork) {
+            if self.moves_box(&astride) {
+                tally.add(Obstacle::Moves);
+                continue;
+            }
+            let held = Held { fork: self, guard: self.guard.with_opening(astride.opening_m), astride };
+            if let Some(found) = held.plan(&mut tally) {
+                return Ok(found);
             }
         }
         Err(tally)
+    }
+
+    /// Does the couple turn the box, or tip it, where the flap stands or where it is left?
+    fn moves_box(&self, astride: &Astride) -> bool {
+        let Some(stand) = self.stand else { return false };
+        let couple_n_m = self.fold.crease_n_m + self.fold.weight_n_m;
+        [self.start_rad(), self.settings.fork.far_enough_rad].iter().any(|&angle_rad| {
+            let frame = self.flap.frame(angle_rad);
+            let couple = (frame.away * astride.twist - frame.along) * couple_n_m;
+            stand.strain_of_couple(&couple) > self.settings.most_strain
+        })
     }
 
     fn start_rad(&self) -> f64 {
@@ -64,14 +77,14 @@ impl<G: Guard> Held<'_, G> {
     fn plan(&self, tally: &mut Tally) -> Option<(PushMotion, f64)> {
         let fork = self.fork;
         let start_rad = fork.start_rad();
-        for angle_rad in [start_rad, fork.settings.fork.far_enough_rad] {
-            let near = self.guard.tool_conflict(&self.pose(angle_rad), &self.at(angle_rad), self.clearance_m());
+        for (angle_rad, lean) in [(start_rad, 0.0), (start_rad, 1.0), (fork.settings.fork.far_enough_rad, 1.0)] {
+            let near = self.guard.tool_conflict(&self.pose(angle_rad, lean), &self.at(angle_rad), self.clearance_m());
             if let Some(obstacle) = near {
                 tally.add(obstacle);
                 return None;
             }
         }
-        for solution in fork.arm.inverse(&self.pose(start_rad)).iter() {
+        for solution in fork.arm.inverse(&self.pose(start_rad, 0.0)).iter() {
             match self.turned(&solution.positions).and_then(|motion| self.with_ends(motion)) {
                 Ok(found) => return Some(found),
                 Err(obstacle) => tally.add(obstacle),
@@ -80,46 +93,60 @@ impl<G: Guard> Held<'_, G> {
         None
     }
 
-    /// Down as far as the arm can follow, first in wide steps.
+    /// Leaning, down as far as the arm can follow, and flat again: first in wide steps, then in close ones.
     fn turned(&self, start: &JointPositions) -> Result<PushMotion, Obstacle> {
         let settings = self.fork.settings;
-        let (start_rad, wanted_rad) = (self.fork.start_rad(), settings.fork.wanted_rad);
-        let wide = layers_between(start_rad, wanted_rad, settings.layer_rad);
-        let (far, why) = self.followed(start, &wide, settings.most_turn_rad);
-        let to_rad = wide[far.len().saturating_sub(1)];
-        let refused = |why: Option<Obstacle>| Err(why.unwrap_or(Obstacle::Jump));
-        if far.is_empty() || to_rad > settings.fork.far_enough_rad {
-            return refused(why);
+        let far_enough_rad = settings.fork.far_enough_rad;
+        let wide = self.places(settings.fork.wanted_rad, settings.layer_rad, false);
+        let (found, mut why) = self.followed(start, &wide, settings.most_turn_rad);
+        let last = found.len().checked_sub(1).map_or((f64::INFINITY, 0.0), |last| wide[last]);
+        let mut to_rad = if last.1 < 1.0 { f64::INFINITY } else { last.0 };
+        while to_rad <= far_enough_rad {
+            let close = self.places(to_rad, settings.sample_rad, true);
+            let (push, ended) = self.followed(start, &close, settings.most_sample_turn_rad);
+            if push.len() == close.len() {
+                return Ok(self.motion(push, close.iter().map(|place| place.0).collect()));
+            }
+            why = ended;
+            to_rad += settings.layer_rad;
         }
-        let close = layers_between(start_rad, to_rad, settings.sample_rad);
-        let (push, why) = self.followed(start, &close, settings.most_sample_turn_rad);
-        if push.is_empty() || close[push.len() - 1] > settings.fork.far_enough_rad {
-            return refused(why);
-        }
-        let hinge_rad = close[..push.len()].to_vec();
-        let (edge_m, half_board_m) = (self.fork.flap.length_m(), self.fork.thickness_m / 2.0);
-        let contact = |&angle_rad: &f64| self.fork.flap.frame(angle_rad).at(self.astride.along_m, edge_m, half_board_m);
-        Ok(PushMotion {
+        Err(why.unwrap_or(Obstacle::Jump))
+    }
+
+    fn motion(&self, push: Vec<JointPositions>, hinge_rad: Vec<f64>) -> PushMotion {
+        let edge = (self.astride.pivot.x, self.fork.flap.length_m(), self.fork.thickness_m / 2.0);
+        let contact = |&angle_rad: &f64| self.fork.flap.frame(angle_rad).at(edge.0, edge.1, edge.2);
+        PushMotion {
             contact: hinge_rad.iter().map(contact).collect(),
             push,
             hinge_rad,
-            opening_m: self.shaped.opening_m,
+            opening_m: self.astride.opening_m,
             meanwhile_rad: self.fork.before.angles_rad.clone(),
             ..PushMotion::default()
-        })
+        }
     }
 
-    /// Postures angle by angle, and what ended them.
+    /// The flap's angles, and what share of its lean the tool leans by then.
+    fn places(&self, to_rad: f64, step_rad: f64, to_end: bool) -> Vec<(f64, f64)> {
+        let start_rad = self.fork.start_rad();
+        let leans = layers_between(0.0, 1.0, step_rad / self.astride.lean_rad);
+        let leaning = leans.iter().map(|&lean| (start_rad, lean));
+        let turning = layers_between(start_rad, to_rad, step_rad).into_iter().skip(1).map(|angle_rad| (angle_rad, 1.0));
+        let back = leans.iter().rev().skip(1).filter(|_| to_end).map(|&lean| (to_rad, lean));
+        leaning.chain(turning).chain(back).collect()
+    }
+
+    /// Postures place by place, and what ended them.
     fn followed(
         &self,
         start: &JointPositions,
-        angles_rad: &[f64],
+        places: &[(f64, f64)],
         most_turn_rad: f64,
     ) -> (Vec<JointPositions>, Option<Obstacle>) {
         let mut found: Vec<JointPositions> = Vec::new();
-        for &angle_rad in angles_rad {
+        for &(angle_rad, lean) in places {
             let last = found.last().unwrap_or(start);
-            let solutions = self.fork.arm.inverse_near(&self.pose(angle_rad), last);
+            let solutions = self.fork.arm.inverse_near(&self.pose(angle_rad, lean), last);
             let Some((positions, turn)) = nearest(&solutions, last) else { return (found, Some(Obstacle::Reach)) };
             if turn > most_turn_rad {
                 return (found, Some(Obstacle::Jump));
@@ -137,20 +164,20 @@ impl<G: Guard> Held<'_, G> {
         let fork = self.fork;
         let lines = Lines { arm: fork.arm, guard: &self.guard, settings: fork.settings };
         let (start_rad, held_rad) = (motion.hinge_rad[0], motion.hinge_rad[motion.hinge_rad.len() - 1]);
-        let rest_rad = fork.fold.rest_rad(held_rad + self.shaped.slack_rad);
+        let rest_rad = fork.fold.rest_rad(held_rad + self.astride.slack_rad);
         let after = fork.before.left(fork.number, rest_rad);
         let frame = |angle_rad: f64| fork.flap.frame(angle_rad);
-        let grip = |angle_rad: f64| Grip {
-            base_from_tool: self.pose(angle_rad),
+        let grip = |angle_rad: f64, lean: f64| Grip {
+            base_from_tool: self.pose(angle_rad, lean),
             contact: motion.contact[0],
             strain: 0.0,
             penalty: 0.0,
         };
         let (first, last) = (motion.push[0], motion.push[motion.push.len() - 1]);
         let mut approach =
-            lines.leave(&first, &grip(start_rad), &frame(start_rad), &self.at(start_rad), fork.before)?;
+            lines.leave(&first, &grip(start_rad, 0.0), &frame(start_rad), &self.at(start_rad), fork.before)?;
         approach.reverse();
-        let retreat = lines.leave(&last, &grip(held_rad), &frame(held_rad), &self.at(held_rad), &after)?;
+        let retreat = lines.leave(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after)?;
         motion = PushMotion { approach, retreat, ..motion };
         if !comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) {
             return Err(Obstacle::NoWay { to: "to it" });
@@ -158,8 +185,8 @@ impl<G: Guard> Held<'_, G> {
         Ok((motion, rest_rad))
     }
 
-    fn pose(&self, angle_rad: f64) -> Rigid {
-        self.fork.flap.frame(angle_rad).base_from_flap().then(&self.astride.flap_from_tool)
+    fn pose(&self, angle_rad: f64, lean: f64) -> Rigid {
+        self.fork.flap.frame(angle_rad).base_from_flap().then(&self.astride.flap_from_tool(lean))
     }
 
     fn at(&self, angle_rad: f64) -> Moment {

@@ -130,8 +130,7 @@ impl Stand {
         let centre = self.base.iter().sum::<Vec3>() / 4.0;
         let lift_n = force_n.dot(&self.up);
         let level_n = force_n - self.up * lift_n;
-        let spin_m = SPIN_SHARE * (self.base[2] - self.base[0]).norm();
-        let turn_n = (at - centre).cross(&level_n).dot(&self.up) / spin_m;
+        let turn_n = (at - centre).cross(&level_n).dot(&self.up) / self.spin_m();
         let drag_n = DRAG_SHARE * force_n.norm();
         let along_n = (level_n.norm_squared() + turn_n.powi(2) + drag_n.powi(2)).sqrt();
         let slides = (along_n + self.friction * lift_n) / (self.friction * self.weight_n);
@@ -141,12 +140,17 @@ impl Stand {
         })
     }
 
-    /// The same of a couple (N m): it tips the box, and slides nothing.
+    /// The same of a couple (N m): it turns the box on the spot, or tips it.
     pub fn strain_of_couple(&self, couple_n_m: &Vec3) -> f64 {
-        let tipping = self
-            .edges()
-            .map(|(_, outward, lever_m)| couple_n_m.dot(&self.up.cross(&outward)) / (self.weight_n * lever_m));
-        tipping.into_iter().fold(0.0, f64::max)
+        let spins = couple_n_m.dot(&self.up).abs() / (self.friction * self.weight_n * self.spin_m());
+        self.edges().into_iter().fold(spins, |worst, (_, outward, lever_m)| {
+            worst.max(couple_n_m.dot(&self.up.cross(&outward)) / (self.weight_n * lever_m))
+        })
+    }
+
+    /// Where the friction of the base resists a turn as if all of it were so far from the middle.
+    fn spin_m(&self) -> f64 {
+        SPIN_SHARE * (self.base[2] - self.base[0]).norm()
     }
 
     /// Of each edge of the base: an end, the unit vector out of the base, and how far it is from the base's middle.

@@ -55,14 +55,12 @@ impl<G: Guard> Closer<'_, G> {
     fn fork_and_push(&self, flap: usize, moment: &Moment, hold_rad: f64, why: WhyNot) -> Tried {
         let (board, fold) = (&self.problem.flaps[flap], self.load.folds[flap]);
         let settings = self.settings_of(flap);
-        let couple_n_m = -board.axis * (fold.crease_n_m + fold.weight_n_m);
-        let tips =
-            self.load.stand.as_ref().is_some_and(|stand| stand.strain_of_couple(&couple_n_m) > settings.most_strain);
-        if tips || !board.tucks.is_empty() || moment.angles_rad[flap] <= settings.fork.far_enough_rad {
+        if !board.tucks.is_empty() || moment.angles_rad[flap] <= settings.fork.far_enough_rad {
             return Err(why);
         }
+        let stand = self.load.stand.as_ref();
         let (arm, guard, thickness_m) = (self.arm, self.guard, self.problem.thickness_m);
-        let fork = Fork { arm, guard, settings, flap: board, number: flap, thickness_m, fold, before: moment };
+        let fork = Fork { arm, guard, settings, flap: board, number: flap, thickness_m, fold, stand, before: moment };
         match fork.plan() {
             Ok((first, rest_rad)) => {
                 let turned = moment.left(flap, rest_rad);

@@ -113,11 +113,13 @@ pub struct ForkSettings {
     pub least_depth_m: f64,
     pub depths: [f64; 2],
     /// By how much the tool leans ahead of the flap, and turns in its plane.
-    pub tilts_rad: Vec<f64>,
+    pub leans_rad: Vec<f64>,
     pub yaws_rad: Vec<f64>,
     /// From the free edge's ends to the tool's middle, and how many places to either side of its middle.
     pub inset_m: f64,
     pub places: usize,
+    /// From the free edge to fingers that come over an end of the flap, where it is long enough.
+    pub edge_m: f64,
     /// The flap is turned down to the first, at the least to the second; a push goes on from where it springs back to.
     pub wanted_rad: f64,
     pub far_enough_rad: f64,
@@ -129,13 +131,14 @@ impl Default for ForkSettings {
         Self {
             gap_m: 0.0008,
             most_depth_m: 0.05,
-            least_tip_m: 0.010,
+            least_tip_m: 0.008,
             least_depth_m: 0.010,
             depths: [1.0, 0.6],
-            tilts_rad: degrees(&[10.0, 20.0, 32.0]),
-            yaws_rad: degrees(&[0.0, 25.0, -25.0, 50.0, -50.0]),
+            leans_rad: degrees(&[20.0, 32.0, 12.0]),
+            yaws_rad: degrees(&[0.0, 25.0, -25.0, 45.0, -45.0]),
             inset_m: 0.015,
             places: 2,
+            edge_m: 0.005,
             wanted_rad: 40f64.to_radians(),
             far_enough_rad: 62f64.to_radians(),
         }
