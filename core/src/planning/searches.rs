@@ -1,5 +1,6 @@
 //! The searches for one flap's push: from where it stands, and from its end.
 
+use super::beam::State;
 use super::contact::{Contacts, Grip};
 use super::guard::{Guard, Moment};
 use super::layers::{Found, Layers};
@@ -74,8 +75,12 @@ impl<G: Guard> Search<'_, '_, G> {
         };
         let mut tally = Tally::default();
         self.pusher.guard.explain_anew();
-        let mut pocketed = Vec::new();
+        let mut pocketed: Vec<PushMotion> = Vec::new();
         for path in &paths {
+            // Another turn of the wrist does not lead out of where the arm is caught.
+            if pocketed.iter().any(|motion| is_alike(motion, path)) {
+                continue;
+            }
             let (first, last) = ((&self.touching, &self.before), (&self.held, &self.after));
             match self.pusher.dense(layers, path, &self.lines, first, last) {
                 Ok(motion) if self.comes_and_goes(&motion) => return Ok(motion),
@@ -113,6 +118,17 @@ pub fn comes_and_goes<G: Guard>(
 /// How hard it is tried to get out of where a motion ends, and how many paths are given up for it.
 const POCKET_TRIES: usize = 300;
 const MOST_POCKETED: usize = 3;
+
+/// Does a path begin and end with the arm, but for its wrist, where a motion does?
+fn is_alike(motion: &PushMotion, path: &[State]) -> bool {
+    let same =
+        |a: &JointPositions, b: &JointPositions| a.iter().zip(b.iter()).take(3).all(|(p, q)| (p - q).abs() < ALIKE_RAD);
+    same(&motion.push[0], &path[0].positions)
+        && same(&motion.push[motion.push.len() - 1], &path[path.len() - 1].positions)
+}
+
+/// Arms no joint of which is turned further than this from one to the other stand alike.
+const ALIKE_RAD: f64 = 0.15;
 
 fn reversed<T: Clone>(items: &[T]) -> Vec<T> {
     items.iter().rev().cloned().collect()

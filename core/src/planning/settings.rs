@@ -129,7 +129,7 @@ impl Default for ForkSettings {
     fn default() -> Self {
         let degrees = |values: &[f64]| values.iter().map(|value| value.to_radians()).collect();
         Self {
-            gap_m: 0.0008,
+            gap_m: 0.0015,
             most_depth_m: 0.05,
             least_tip_m: 0.008,
             least_depth_m: 0.010,
