@@ -40,7 +40,7 @@ pub fn all_astride(arm: &Arm, flap: &Flap, thickness_m: f64, settings: &ForkSett
         yaws.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, settings)).collect::<Vec<_>>()
     });
     let over_ends = over_ends(arm, flap, settings);
-    [straight, turned, over_ends].into_iter().flat_map(one_sided).collect()
+    [straight, over_ends, turned].into_iter().flat_map(one_sided).collect()
 }
 
 /// Over the free edge, the tool's axis turned in the board by `yaw_rad` from straight to the hinge.

@@ -179,7 +179,7 @@ impl<G: Guard> Held<'_, G> {
         approach.reverse();
         let retreat = lines.leave(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after)?;
         motion = PushMotion { approach, retreat, ..motion };
-        if !comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) {
+        if comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) != (true, true) {
             return Err(Obstacle::NoWay { to: "to it" });
         }
         Ok((motion, rest_rad))

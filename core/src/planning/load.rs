@@ -181,20 +181,27 @@ impl Load {
     /// Is there at every angle, from where a flap stands to closed, some place on it where a push square to its face turns it and
     /// leaves the box standing? Statics alone, whatever the arm can reach.
     pub fn is_bearable(&self, problem: &BoxProblem, flap: usize) -> bool {
-        let (Some(stand), fold) = (&self.stand, self.folds[flap]) else { return true };
+        self.worst_strain(problem, flap) <= 1.0
+    }
+
+    /// The share of what moves the box that such a push is, at the best place of the worst angle (eq. 97).
+    pub fn worst_strain(&self, problem: &BoxProblem, flap: usize) -> f64 {
+        let (Some(stand), fold) = (&self.stand, self.folds[flap]) else { return 0.0 };
         let flap = &problem.flaps[flap];
         let places = || (0..PLACES * PLACES).map(|k| [k % PLACES, k / PLACES].map(|k| (k + 1) as f64 / PLACES as f64));
         let steps = (flap.position_rad / BEARABLE_STEP_RAD).ceil().max(1.0) as usize;
-        (0..=steps).all(|step| {
+        let strains = (0..=steps).map(|step| {
             let angle_rad = flap.position_rad * (1.0 - step as f64 / steps as f64);
             let frame = flap.frame(angle_rad);
-            places().any(|[along, away]| {
+            let strain = |[along, away]: [f64; 2]| {
                 let lever_m = away * flap.length_m();
                 let at = frame.at(along * flap.hinge_length_m(), lever_m, problem.thickness_m / 2.0);
                 let push_n = fold.closing_n_m(angle_rad).max(0.0) / lever_m;
-                stand.strain(&at, &(frame.push() * push_n)) <= 1.0
-            })
-        })
+                stand.strain(&at, &(frame.push() * push_n))
+            };
+            places().map(strain).fold(f64::INFINITY, f64::min)
+        });
+        strains.fold(0.0, f64::max)
     }
 }
 

@@ -1,5 +1,7 @@
 //! One flap's push: the layered search's path made smooth and dense, with the ways to it and away from it.
 
+use std::cell::Cell;
+
 use nalgebra::UnitQuaternion;
 
 use super::beam::State;
@@ -68,6 +70,7 @@ impl<G: Guard> Pusher<'_, G> {
             pressed,
             angles_rad,
             moments,
+            caught: Cell::new(0),
         };
         let fine_settings = self.settings.with_fine_contacts();
         let over_settings = self.settings.with_contacts_over_edges();
@@ -75,6 +78,9 @@ impl<G: Guard> Pusher<'_, G> {
         self.guard.explain_anew();
         let mut why = None;
         for (k, &beam) in self.settings.beams.iter().enumerate() {
+            if search.is_caught() {
+                break;
+            }
             let contacts = [&self.contacts, &fine, &over][k.min(2)];
             match search.run(beam, contacts) {
                 Ok(motion) => return Ok(motion),

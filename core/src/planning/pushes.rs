@@ -30,12 +30,16 @@ impl<G: Guard> Closer<'_, G> {
         if let Some(obstacle) = self.kept_open(flap, moment, hold_rad) {
             return Err(WhyNot::by_boards(&obstacle));
         }
-        let first = if self.load.is_bearable(self.problem, flap) {
-            self.careful_push(flap, moment, hold_rad)
-        } else {
-            Err(WhyNot::moving())
-        };
-        first.or_else(|why| self.fork_and_push(flap, moment, hold_rad, why))
+        let strain = self.load.worst_strain(self.problem, flap);
+        if strain <= self.settings.fork.least_strain {
+            let pushed = self.careful_push(flap, moment, hold_rad);
+            return pushed.or_else(|why| self.fork_and_push(flap, moment, hold_rad, why));
+        }
+        // A box that a push nearly moves is moved by many: rather by a couple.
+        match self.fork_and_push(flap, moment, hold_rad, WhyNot::moving()) {
+            Err(_) if strain <= 1.0 => self.careful_push(flap, moment, hold_rad),
+            tried => tried,
+        }
     }
 
     /// A push with a reserve to what moves the box.
@@ -68,9 +72,8 @@ impl<G: Guard> Closer<'_, G> {
                 let push = push.or_else(|_| self.pusher(flap, &turned, hold_rad, f64::INFINITY).plan())?;
                 Ok(PushMotion { first: Some(Box::new(first)), ..push })
             }
-            Err(tally) => {
-                Err(WhyNot { by_flaps: why.by_flaps || tally.any(|obstacle| obstacle.is_flap_beside(board)), ..why })
-            }
+            // Other flaps may stand better for it, before or after.
+            Err(_) => Err(WhyNot { by_flaps: true, ..why }),
         }
     }
 

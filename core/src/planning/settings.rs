@@ -105,6 +105,8 @@ pub struct FineContacts {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ForkSettings {
+    /// Flaps whose push would be a greater share of what moves the box are turned so first; others where a push alone does not do.
+    pub least_strain: f64,
     /// Each finger is planned this far off the board.
     pub gap_m: f64,
     /// How far the tips reach in from the free edge: at most so far and so near to the hinge, and shares of that, but never less.
@@ -129,6 +131,7 @@ impl Default for ForkSettings {
     fn default() -> Self {
         let degrees = |values: &[f64]| values.iter().map(|value| value.to_radians()).collect();
         Self {
+            least_strain: 0.6,
             gap_m: 0.0015,
             most_depth_m: 0.05,
             least_tip_m: 0.008,
