@@ -78,8 +78,8 @@ fn over_ends(arm: &Arm, flap: &Flap, settings: &ForkSettings) -> Vec<Astride> {
         return Vec::new();
     }
     let mut found = Vec::new();
-    for share in settings.depths {
-        let reach_m = settings.most_depth_m * share;
+    let reaches_m = settings.depths.map(|share| settings.most_depth_m * share);
+    for reach_m in reaches_m.into_iter().filter(|reach_m| *reach_m >= settings.least_depth_m) {
         for &lean_rad in &settings.leans_rad {
             found.extend([1.0, -1.0].map(|side| {
                 let toward = Vec3::x() * side;

@@ -138,7 +138,7 @@ impl Default for ForkSettings {
             least_depth_m: 0.010,
             depths: [1.0, 0.6],
             leans_rad: degrees(&[20.0, 32.0, 12.0]),
-            yaws_rad: degrees(&[0.0, 25.0, -25.0, 45.0, -45.0]),
+            yaws_rad: degrees(&[0.0, 25.0, -25.0]),
             inset_m: 0.015,
             places: 2,
             edge_m: 0.005,
