@@ -37,7 +37,7 @@ impl<G: Guard> Closer<'_, G> {
         }
         // A box that a push nearly moves is moved by many: rather by a couple.
         match self.fork_and_push(flap, moment, hold_rad, WhyNot::moving()) {
-            Err(_) if strain <= 1.0 => self.careful_push(flap, moment, hold_rad),
+            Err(_) if strain <= self.settings.most_strain.max(1.0) => self.careful_push(flap, moment, hold_rad),
             tried => tried,
         }
     }
