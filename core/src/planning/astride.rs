@@ -155,3 +155,65 @@ impl Astride {
 
 /// Of the range of openings, down to micrometres.
 const HALVINGS: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::super::problem::MeasuredBox;
+    use super::*;
+
+    const VIPER: &str = include_str!("../../../src/boxwright/robots/data/viper_s850.toml");
+    const THICKNESS_M: f64 = 0.004;
+
+    /// A flap that stands upright on a hinge of 0.2 m.
+    fn flap(length_m: f64) -> Flap {
+        let told = json!({
+            "thickness_m": THICKNESS_M, "fixed": [], "support": null,
+            "flaps": [{
+                "name": "flap_0", "side": "side_0", "standing": "seen", "origin": [0.1, 0.0, 0.2], "axis": [1.0, 0.0, 0.0],
+                "position_rad": std::f64::consts::FRAC_PI_2,
+                "corners": [[0.0, 0.0, 0.2], [0.2, 0.0, 0.2], [0.2, 0.0, 0.2 + length_m], [0.0, 0.0, 0.2 + length_m]],
+            }],
+        });
+        let problem = serde_json::from_value::<MeasuredBox>(told).unwrap().into_problem().unwrap();
+        problem.flaps.into_iter().next().unwrap()
+    }
+
+    /// How far each finger is from the board.
+    fn fingers(arm: &Arm, flap: &Flap, astride: &Astride, share: f64) -> Vec<f64> {
+        let board = Solid::Box(OrientedBox::of_panel(&flap.corners(0.0), THICKNESS_M).unwrap());
+        let base_from_tool = flap.frame(0.0).base_from_flap().then(&astride.flap_from_tool(share));
+        let base_from_flange = base_from_tool.then(&arm.gripper.flange_from_tool().inverse());
+        let gaps = arm.gripper.fingers(astride.opening_m).map(|finger| match finger {
+            Shape::Box { body_from_box, half_m } => {
+                let placed = OrientedBox::new(base_from_flange.then(&body_from_box), half_m);
+                signed_distance_m(&Solid::Box(placed), &board)
+            }
+            Shape::Capsule { .. } => panic!("fingers are boxes"),
+        });
+        gaps.to_vec()
+    }
+
+    #[test]
+    fn fingers_come_flat_with_room_and_lean_until_both_nearly_touch() {
+        let (arm, settings) = (Arm::from_toml(VIPER).unwrap(), ForkSettings::default());
+        let mut counted = [0; 3];
+        for (k, length_m) in [0.026, 0.06, 0.15].into_iter().enumerate() {
+            let flap = flap(length_m);
+            for astride in all_astride(&arm, &flap, THICKNESS_M, &settings) {
+                let (flat, leaning) = (fingers(&arm, &flap, &astride, 0.0), fingers(&arm, &flap, &astride, 1.0));
+                for (before_m, gap_m) in flat.iter().zip(&leaning) {
+                    assert!(*before_m > *gap_m && *gap_m >= settings.gap_m - 1e-9, "{before_m} {gap_m}");
+                }
+                let least_m = leaning.iter().copied().fold(f64::INFINITY, f64::min);
+                let most_m = leaning.iter().copied().fold(0.0, f64::max);
+                assert!(least_m < settings.gap_m + 1e-5 && most_m < settings.gap_m + 0.006, "{least_m} {most_m}");
+                // Half way between hinge and free edge, or nearer to the edge.
+                assert!(astride.pivot.y > length_m / 2.0 && astride.pivot.y < length_m);
+                counted[k] += 1;
+            }
+        }
+        assert!(counted[0] > 50 && counted[1] > 100 && counted[2] > 100, "{counted:?}");
+    }
+}

@@ -9,7 +9,6 @@ use super::line::Lines;
 use super::load::{Fold, Stand};
 use super::posture::nearest;
 use super::push::{layers_between, PushMotion};
-use super::reason::{Obstacle, Tally};
 use super::searches::comes_and_goes;
 use super::settings::PlanningSettings;
 use crate::arm::{Arm, JointPositions};
@@ -38,23 +37,11 @@ struct Held<'a, G: Guard> {
 
 impl<G: Guard> Fork<'_, G> {
     /// The first way that turns the flap down from where it stands to where a push can go on, and where it rests then (rad).
-    ///
-    /// # Errors
-    /// What was in the way.
-    pub fn plan(&self) -> Result<(PushMotion, f64), Tally> {
-        let mut tally = Tally::default();
-        self.guard.explain_anew();
-        for astride in all_astride(self.arm, self.flap, self.thickness_m, &self.settings.fork) {
-            if self.moves_box(&astride) {
-                tally.add(Obstacle::Moves);
-                continue;
-            }
-            let held = Held { fork: self, guard: self.guard.with_opening(astride.opening_m), astride };
-            if let Some(found) = held.plan(&mut tally) {
-                return Ok(found);
-            }
-        }
-        Err(tally)
+    pub fn plan(&self) -> Option<(PushMotion, f64)> {
+        let all = all_astride(self.arm, self.flap, self.thickness_m, &self.settings.fork);
+        all.into_iter()
+            .filter(|astride| !self.moves_box(astride))
+            .find_map(|astride| Held { fork: self, guard: self.guard.with_opening(astride.opening_m), astride }.plan())
     }
 
     /// Does the couple turn the box, or tip it, where the flap stands or where it is left?
@@ -74,43 +61,37 @@ impl<G: Guard> Fork<'_, G> {
 }
 
 impl<G: Guard> Held<'_, G> {
-    fn plan(&self, tally: &mut Tally) -> Option<(PushMotion, f64)> {
+    fn plan(&self) -> Option<(PushMotion, f64)> {
         let fork = self.fork;
         let start_rad = fork.start_rad();
-        for (angle_rad, lean) in [(start_rad, 0.0), (start_rad, 1.0), (fork.settings.fork.far_enough_rad, 1.0)] {
-            let near = self.guard.tool_conflict(&self.pose(angle_rad, lean), &self.at(angle_rad), self.clearance_m());
-            if let Some(obstacle) = near {
-                tally.add(obstacle);
-                return None;
-            }
+        let places = [(start_rad, 0.0), (start_rad, 1.0), (fork.settings.fork.far_enough_rad, 1.0)];
+        let is_near = |(angle_rad, lean): (f64, f64)| {
+            self.guard.tool_conflict(&self.pose(angle_rad, lean), &self.at(angle_rad), self.clearance_m()).is_some()
+        };
+        if places.into_iter().any(is_near) {
+            return None;
         }
-        for solution in fork.arm.inverse(&self.pose(start_rad, 0.0)).iter() {
-            match self.turned(&solution.positions).and_then(|motion| self.with_ends(motion)) {
-                Ok(found) => return Some(found),
-                Err(obstacle) => tally.add(obstacle),
-            }
-        }
-        None
+        let solutions = fork.arm.inverse(&self.pose(start_rad, 0.0));
+        solutions.iter().find_map(|solution| self.with_ends(self.turned(&solution.positions)?))
     }
 
     /// Leaning, down as far as the arm can follow, and flat again: first in wide steps, then in close ones.
-    fn turned(&self, start: &JointPositions) -> Result<PushMotion, Obstacle> {
+    fn turned(&self, start: &JointPositions) -> Option<PushMotion> {
         let settings = self.fork.settings;
         let far_enough_rad = settings.fork.far_enough_rad;
         let wide = self.places(settings.fork.wanted_rad, settings.layer_rad, false);
-        let (found, mut why) = self.followed(start, &wide, settings.most_turn_rad);
+        let found = self.followed(start, &wide, settings.most_turn_rad);
         let last = found.len().checked_sub(1).map_or((f64::INFINITY, 0.0), |last| wide[last]);
         let mut to_rad = if last.1 < 1.0 { f64::INFINITY } else { last.0 };
         while to_rad <= far_enough_rad {
             let close = self.places(to_rad, settings.sample_rad, true);
-            let (push, ended) = self.followed(start, &close, settings.most_sample_turn_rad);
+            let push = self.followed(start, &close, settings.most_sample_turn_rad);
             if push.len() == close.len() {
-                return Ok(self.motion(push, close.iter().map(|place| place.0).collect()));
+                return Some(self.motion(push, close.iter().map(|place| place.0).collect()));
             }
-            why = ended;
             to_rad += settings.layer_rad;
         }
-        Err(why.unwrap_or(Obstacle::Jump))
+        None
     }
 
     fn motion(&self, push: Vec<JointPositions>, hinge_rad: Vec<f64>) -> PushMotion {
@@ -136,31 +117,26 @@ impl<G: Guard> Held<'_, G> {
         leaning.chain(turning).chain(back).collect()
     }
 
-    /// Postures place by place, and what ended them.
-    fn followed(
-        &self,
-        start: &JointPositions,
-        places: &[(f64, f64)],
-        most_turn_rad: f64,
-    ) -> (Vec<JointPositions>, Option<Obstacle>) {
+    /// Postures place by place, as far as they are clear and the arm need not jump.
+    fn followed(&self, start: &JointPositions, places: &[(f64, f64)], most_turn_rad: f64) -> Vec<JointPositions> {
         let mut found: Vec<JointPositions> = Vec::new();
         for &(angle_rad, lean) in places {
             let last = found.last().unwrap_or(start);
             let solutions = self.fork.arm.inverse_near(&self.pose(angle_rad, lean), last);
-            let Some((positions, turn)) = nearest(&solutions, last) else { return (found, Some(Obstacle::Reach)) };
-            if turn > most_turn_rad {
-                return (found, Some(Obstacle::Jump));
+            match nearest(&solutions, last).filter(|(_, turn)| *turn <= most_turn_rad) {
+                Some((positions, _)) if self.is_clear(&positions, angle_rad) => found.push(positions),
+                _ => break,
             }
-            if let Some(obstacle) = self.guard.conflict(&positions, &self.at(angle_rad), self.clearance_m()) {
-                return (found, Some(obstacle));
-            }
-            found.push(positions);
         }
-        (found, None)
+        found
+    }
+
+    fn is_clear(&self, positions: &JointPositions, angle_rad: f64) -> bool {
+        self.guard.conflict(positions, &self.at(angle_rad), self.clearance_m()).is_none()
     }
 
     /// With the ways to it and away from it; the flap follows the fingers' slack, then springs back.
-    fn with_ends(&self, mut motion: PushMotion) -> Result<(PushMotion, f64), Obstacle> {
+    fn with_ends(&self, mut motion: PushMotion) -> Option<(PushMotion, f64)> {
         let fork = self.fork;
         let lines = Lines { arm: fork.arm, guard: &self.guard, settings: fork.settings };
         let (start_rad, held_rad) = (motion.hinge_rad[0], motion.hinge_rad[motion.hinge_rad.len() - 1]);
@@ -175,14 +151,14 @@ impl<G: Guard> Held<'_, G> {
         };
         let (first, last) = (motion.push[0], motion.push[motion.push.len() - 1]);
         let mut approach =
-            lines.leave(&first, &grip(start_rad, 0.0), &frame(start_rad), &self.at(start_rad), fork.before)?;
+            lines.leave(&first, &grip(start_rad, 0.0), &frame(start_rad), &self.at(start_rad), fork.before).ok()?;
         approach.reverse();
-        let retreat = lines.leave(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after)?;
+        let retreat = lines.leave(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after).ok()?;
         motion = PushMotion { approach, retreat, ..motion };
         if comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) != (true, true) {
-            return Err(Obstacle::NoWay { to: "to it" });
+            return None;
         }
-        Ok((motion, rest_rad))
+        Some((motion, rest_rad))
     }
 
     fn pose(&self, angle_rad: f64, lean: f64) -> Rigid {

@@ -249,6 +249,28 @@ mod tests {
     }
 
     #[test]
+    fn a_couple_tips_and_spins_but_does_not_slide() {
+        // 10 N with levers of 0.1 and 0.05 m; the base's friction of 4 N at a share of the diagonal.
+        let spin_m = SPIN_SHARE * f64::hypot(0.2, 0.1);
+        let asked = [
+            (Vec3::new(0.0, 0.5, 0.0), 0.5),
+            (Vec3::new(0.0, -0.5, 0.0), 0.5),
+            (Vec3::new(0.5, 0.0, 0.0), 1.0),
+            (Vec3::new(0.0, 0.0, 0.1), 0.1 / (4.0 * spin_m)),
+        ];
+        let counted = asked.map(|(couple_n_m, share)| {
+            let strain = stand().strain_of_couple(&couple_n_m);
+            assert!((strain - share).abs() < 1e-9, "{couple_n_m:?}: {strain}");
+        });
+        assert_eq!(counted.len(), 4);
+        // The same as two opposite forces at either end of an arm, one over the other, but for what slides.
+        let (up, down) = (Vec3::new(0.0, 0.0, 0.3), Vec3::new(0.0, 0.0, 0.1));
+        let force_n = Vec3::new(2.0, 0.0, 0.0);
+        let couple = (up - down).cross(&force_n);
+        assert!((stand().strain_of_couple(&couple) - 0.4).abs() < 1e-9);
+    }
+
+    #[test]
     fn a_flap_springs_back_by_what_its_weight_leaves() {
         let fold = Fold { crease_n_m: 0.1, weight_n_m: 0.0, return_rad: 0.2 };
         assert!((fold.rest_rad(-0.1) - 0.1).abs() < 1e-12);

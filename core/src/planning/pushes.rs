@@ -65,16 +65,12 @@ impl<G: Guard> Closer<'_, G> {
         let stand = self.load.stand.as_ref();
         let (arm, guard, thickness_m) = (self.arm, self.guard, self.problem.thickness_m);
         let fork = Fork { arm, guard, settings, flap: board, number: flap, thickness_m, fold, stand, before: moment };
-        match fork.plan() {
-            Ok((first, rest_rad)) => {
-                let turned = moment.left(flap, rest_rad);
-                let push = self.careful_push(flap, &turned, hold_rad);
-                let push = push.or_else(|_| self.pusher(flap, &turned, hold_rad, f64::INFINITY).plan())?;
-                Ok(PushMotion { first: Some(Box::new(first)), ..push })
-            }
-            // Other flaps may stand better for it, before or after.
-            Err(_) => Err(WhyNot { by_flaps: true, ..why }),
-        }
+        // Other flaps may stand better for it, before or after.
+        let (first, rest_rad) = fork.plan().ok_or(WhyNot { by_flaps: true, ..why })?;
+        let turned = moment.left(flap, rest_rad);
+        let push = self.careful_push(flap, &turned, hold_rad);
+        let push = push.or_else(|_| self.pusher(flap, &turned, hold_rad, f64::INFINITY).plan())?;
+        Ok(PushMotion { first: Some(Box::new(first)), ..push })
     }
 
     /// The same without a reserve of force; a flap that stands low closes even if the box slides a little. None where there is none.
