@@ -48,7 +48,8 @@ def test_a_couple_turns_what_a_push_would_move_the_box_for() -> None:
     for number in LIGHT:
         problem = draw_problem(number)
         without, plan = _plan(problem, NO_FORK), _plan(problem)
-        forked = [segment.flap for segment in plan.segments if segment.kind == "push" and segment.gripper_opening_m > 0.0]
+        pushes = [segment for segment in plan.segments if segment.kind == "push"]
+        forked = [segment.flap for segment in pushes if segment.gripper_opening_m > 0.0 and segment.flap is not None]
         run = simulate(plan, problem.model).simulation
         for name in forked:
             assert run.flaps[name].held, f"problem {number}: {name}"
