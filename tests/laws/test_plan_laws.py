@@ -77,19 +77,42 @@ def test_each_piece_begins_where_the_one_before_ended(plans: list[tuple[Problem,
 
 
 def test_the_arm_begins_and_ends_ready_and_closes_in_order(plans: list[tuple[Problem, Plan]]) -> None:
-    pushes = 0
+    pushes = forks = 0
     for problem, plan in plans:
         # Flaps that overlap those across from them lie on these, not flat.
         most_rad = np.radians(20.0 if problem.variant == "overlap" else 3.0)
         pushed = [segment for segment in plan.segments if segment.kind == "push"]
-        assert tuple(segment.flap for segment in pushed) == plan.order
+        last = {segment.flap: segment for segment in pushed}
+        assert tuple(last) == plan.order
         assert plan.segments[0].positions[0] == plan.segments[-1].positions[-1]
-        for segment in pushed:
+        for number, segment in enumerate(pushed):
             assert segment.hinge_angle_rad is not None
             assert (np.diff(segment.hinge_angle_rad) < 1e-9).all(), "a flap is pushed inward only"
-            assert -np.radians(13.0) - ROUNDING < segment.hinge_angle_rad[-1] < most_rad
+            if segment is last[segment.flap]:
+                assert segment.gripper_opening_m == 0.0
+                assert -np.radians(13.0) - ROUNDING < segment.hinge_angle_rad[-1] < most_rad
+            else:
+                # Turned with the fingers open, it springs back before it is pushed home.
+                assert segment.flap == pushed[number + 1].flap
+                assert segment.gripper_opening_m > (problem.box.thickness or 0.0)
+                assert segment.hinge_angle_rad[-1] < np.radians(62.0) + ROUNDING
+                after = pushed[number + 1].hinge_angle_rad
+                assert after is not None
+                assert 0.0 < after[0] - segment.hinge_angle_rad[-1] < np.radians(30.0)
+                forks += 1
         pushes += len(pushed)
     assert pushes > 15
+    assert forks >= 3
+
+
+def test_the_gripper_opens_and_closes_in_the_ready_pose(plans: list[tuple[Problem, Plan]]) -> None:
+    changes = 0
+    for problem, plan in plans:
+        for before, after in zip(plan.segments, plan.segments[1:], strict=False):
+            if before.gripper_opening_m != after.gripper_opening_m:
+                assert after.positions[0] == plan.segments[0].positions[0], f"problem {problem.number}"
+                changes += 1
+    assert changes >= 3
 
 
 def test_the_same_input_gives_the_same_bits(plans: list[tuple[Problem, Plan]], tmp_path: Path) -> None:

@@ -18,7 +18,8 @@ LIGHT = (18, 156)
 SMALL = 0
 """One none of whose flaps can be pushed where it weighs 0.2 kg."""
 
-REGARDLESS = {"most_strain": 1e9}
+NO_FORK = {"fork": {"most_depth_m": 0.0}}
+REGARDLESS = {"most_strain": 1e9, **NO_FORK}
 
 
 def _plan(problem: Problem, settings: dict[str, Any] | None = None) -> Plan:
@@ -29,7 +30,7 @@ def test_a_flap_that_would_move_the_box_is_told_and_physics_agrees() -> None:
     counted = 0
     for number in LIGHT:
         problem = draw_problem(number)
-        plan, regardless = _plan(problem), _plan(problem, REGARDLESS)
+        plan, regardless = _plan(problem, NO_FORK), _plan(problem, REGARDLESS)
         refused = [name for name, flap in plan.flaps.items() if flap.reason and "slide or tip" in flap.reason]
         assert all(plan.flaps[name].status == "blocked" for name in refused)
         careful, careless = (simulate(made, problem.model).simulation for made in (plan, regardless))
@@ -40,6 +41,22 @@ def test_a_flap_that_would_move_the_box_is_told_and_physics_agrees() -> None:
                 assert not careless.flaps[name].held, f"problem {number}: {name}"
                 counted += 1
     assert counted == 3
+
+
+def test_a_couple_turns_what_a_push_would_move_the_box_for() -> None:
+    counted = 0
+    for number in LIGHT:
+        problem = draw_problem(number)
+        without, plan = _plan(problem, NO_FORK), _plan(problem)
+        pushes = [segment for segment in plan.segments if segment.kind == "push"]
+        forked = [segment.flap for segment in pushes if segment.gripper_opening_m > 0.0 and segment.flap is not None]
+        run = simulate(plan, problem.model).simulation
+        for name in forked:
+            assert run.flaps[name].held, f"problem {number}: {name}"
+            counted += without.flaps[name].status == "blocked"
+        assert run.box_slid_m < 0.015, f"problem {number}"
+        assert not run.unwanted
+    assert counted == 2
 
 
 def test_a_heavy_box_bears_what_a_light_one_does_not() -> None:

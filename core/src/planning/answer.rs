@@ -76,7 +76,8 @@ impl Answer {
     pub fn conflicts<G: Guard>(&self, arm: &Arm, guard: &G, step_s: f64, clearance_m: f64) -> Vec<Conflict> {
         guard.explain_anew();
         let found = self.segments.iter().enumerate().filter_map(|(k, segment)| {
-            let (time_s, obstacle) = segment.conflict(arm, guard, step_s, clearance_m)?;
+            let guard = guard.with_opening(segment.gripper_opening_m);
+            let (time_s, obstacle) = segment.conflict(arm, &guard, step_s, clearance_m)?;
             Some(Conflict { flap: self.flap_of(k)?, time_s, obstacle })
         });
         found.collect()
@@ -137,7 +138,7 @@ fn segment(piece: &Piece, arm: &Arm, problem: &BoxProblem, settings: &PlanningSe
         times: Vec::new(),
         positions: Vec::new(),
         velocities: Vec::new(),
-        gripper_opening_m: arm.gripper.opening_m[0],
+        gripper_opening_m: piece.opening_m,
         hinge_angle_rad: is_push.then(Vec::new),
         contact: is_push.then(Vec::new),
         angles_rad: piece.angles_rad.clone(),

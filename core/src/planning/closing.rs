@@ -1,17 +1,13 @@
 //! The whole of it: which flaps, in which order, and the ways between them.
 
-use super::boards::met;
-use super::contact::Contacts;
 use super::flap::Standing;
 use super::guard::{Guard, Moment};
-use super::known::{Force, Known, Tried};
+use super::known::Margins;
 use super::load::Load;
 use super::order;
-use super::orientations::OrientationGrid;
 use super::piece::{Kind, Piece};
-use super::planes::PlanesSearch;
 use super::problem::BoxProblem;
-use super::push::{closed_finger, PushMotion, Pusher};
+use super::push::PushMotion;
 use super::reason::{Obstacle, Status, WhyNot};
 use super::request::Method;
 use super::settings::PlanningSettings;
@@ -59,10 +55,7 @@ pub struct Closer<'a, G: Guard> {
     pub problem: &'a BoxProblem,
     pub load: &'a Load,
     pub settings: &'a PlanningSettings,
-    /// The settings of flaps whose margins were widened, once, twice, and so on; and how often each was, in the problem's order.
-    pub wider: &'a [PlanningSettings],
-    pub widened: &'a [usize],
-    pub known: &'a Known,
+    pub margins: &'a Margins,
     pub method: Method,
     /// The flaps to close, by name; all that are open where there are none.
     pub only: &'a [String],
@@ -87,7 +80,14 @@ impl<G: Guard> Closer<'_, G> {
         for (flap, why) in ordered.why_not {
             outcomes[flap] = Some(why.outcome());
         }
-        let mut way = Way { closer: self, at: *start, angles_rad, order: Vec::new(), pieces: Vec::new() };
+        let mut way = Way {
+            closer: self,
+            at: *start,
+            opening_m: self.arm.gripper.opening_m[0],
+            angles_rad,
+            order: Vec::new(),
+            pieces: Vec::new(),
+        };
         for (flap, push) in ordered.order.into_iter().zip(ordered.pushes) {
             outcomes[flap] = Some(match way.close(flap, push) {
                 Ok(rest_rad) => Outcome { rest_rad: Some(rest_rad), ..Outcome::new(Status::Planned, String::new()) },
@@ -97,7 +97,7 @@ impl<G: Guard> Closer<'_, G> {
         way.home(start);
         for (flap, outcome) in outcomes.iter_mut().enumerate() {
             if let Some(outcome) = outcome {
-                outcome.seconds = self.known.seconds(flap);
+                outcome.seconds = self.margins.known.seconds(flap);
             }
         }
         let unknown = || Outcome::new(Status::OutOfTime, "was not tried".into());
@@ -128,124 +128,66 @@ impl<G: Guard> Closer<'_, G> {
             Standing::Seen => None,
         }
     }
-
-    /// One flap's push while the others stand as they do.
-    ///
-    /// # Errors
-    /// The status and the reason why there is none.
-    pub fn push(&self, flap: usize, moment: &Moment) -> Tried {
-        self.known.push(flap, self.widened[flap], moment, Force::Careful, || self.push_anew(flap, moment))
-    }
-
-    fn push_anew(&self, flap: usize, moment: &Moment) -> Tried {
-        if self.method == Method::Paper {
-            return self.paper_push(flap, moment);
-        }
-        let hold_rad = self.hold_rad(flap, moment);
-        if let Some(obstacle) = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings) {
-            return Err(WhyNot::by_boards(&obstacle));
-        }
-        if hold_rad > self.settings.most_propped_rad {
-            return Err(WhyNot::by_boards(&Obstacle::Propped { flap: self.problem.flaps[flap].name.clone() }));
-        }
-        let most_strain = self.settings.most_strain;
-        let first = self.pusher(flap, moment, hold_rad, most_strain).plan();
-        let short_rad = self.settings.short_on_others_rad;
-        match first {
-            // Arms that cannot follow the flap beyond closed may still lay it down.
-            Err(why) if hold_rad < 0.0 && !why.at_start => {
-                self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why)
-            }
-            tried => tried,
-        }
-    }
-
-    /// The same without a reserve of force; a flap that stands low closes even if the box slides a little. None where there is none.
-    pub fn push_home(&self, flap: usize, moment: &Moment) -> Option<PushMotion> {
-        let hold_rad = self.hold_rad(flap, moment);
-        let is_low = moment.angles_rad[flap] <= self.settings.slides_home_rad;
-        let most_strain = if is_low { f64::INFINITY } else { 1.0 };
-        let meets = met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings).is_some();
-        if meets || hold_rad > self.settings.most_propped_rad {
-            return None;
-        }
-        let plan = || self.pusher(flap, moment, hold_rad, most_strain).plan();
-        self.known.push(flap, self.widened[flap], moment, Force::Home, plan).ok()
-    }
-
-    /// A flap's settings, as wide as its margins are by now.
-    fn settings_of(&self, flap: usize) -> &PlanningSettings {
-        self.widened[flap].checked_sub(1).map_or(self.settings, |times| &self.wider[times])
-    }
-
-    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
-        let settings = self.settings_of(flap);
-        let half_board_m = self.problem.thickness_m / 2.0;
-        Pusher {
-            arm: self.arm,
-            guard: self.guard,
-            settings,
-            contacts: Contacts::new(
-                &self.problem.flaps[flap],
-                closed_finger(self.arm),
-                half_board_m,
-                settings,
-                (self.load.folds[flap], self.load.stand.as_ref()),
-                OrientationGrid::coarse(),
-            ),
-            most_strain,
-            flap,
-            moment: moment.clone(),
-            hold_rad,
-            rest_rad: self.load.folds[flap].rest_rad(hold_rad).min(self.settings.closed_rad),
-        }
-    }
-
-    /// The paper's push, to closed and no further.
-    fn paper_push(&self, flap: usize, moment: &Moment) -> Result<PushMotion, WhyNot> {
-        let pusher = self.pusher(flap, moment, 0.0, f64::INFINITY);
-        PlanesSearch { pusher: &pusher, settings: self.settings_of(flap) }.plan()
-    }
 }
 
 /// The way so far.
 struct Way<'a, 'b, G: Guard> {
     closer: &'a Closer<'b, G>,
     at: JointPositions,
+    opening_m: f64,
     angles_rad: Vec<f64>,
     order: Vec<usize>,
     pieces: Vec<Piece>,
 }
 
 impl<G: Guard> Way<'_, '_, G> {
-    /// Goes to a flap and pushes it; where it rests then. A flap left open before changes what the others meet: the push is planned anew where the
-    /// one at hand no longer holds.
-    fn close(&mut self, flap: usize, push: PushMotion) -> Result<f64, WhyNot> {
-        let ready = self.closer.arm.ready;
-        let Some(transit) = self.transit(&push.approach[0], &ready, flap) else {
-            return Err(WhyNot { by_flaps: false, ..WhyNot::by_boards(&Obstacle::NoWay { to: "to it" }) });
-        };
-        let resting = self.angles_rad.clone();
+    /// Goes to a flap and closes it; where it rests then. All or nothing.
+    fn close(&mut self, flap: usize, mut push: PushMotion) -> Result<f64, WhyNot> {
+        let before = (self.at, self.opening_m, self.angles_rad.clone(), self.pieces.len());
         let rest_rad = self.closer.rest_rad(flap, &push);
-        let meanwhile = push.meanwhile_rad;
-        let mut held = meanwhile.clone();
-        held[flap] = push.hinge_rad[push.hinge_rad.len() - 1];
-        let pushed = Some(flap);
-        self.add(Piece::new(Kind::Transit, None, transit, resting));
-        self.add(Piece::new(Kind::Approach, pushed, push.approach, meanwhile.clone()));
-        let piece = Piece::new(Kind::Push, pushed, push.push, meanwhile);
-        self.add(Piece { hinge_rad: push.hinge_rad, contact: push.contact, ..piece });
-        self.add(Piece::new(Kind::Retreat, pushed, push.retreat, held));
-        self.angles_rad[flap] = rest_rad;
+        let first = push.first.take().map(|first| (*first, push.hinge_rad[0]));
+        for (motion, rest_rad) in first.into_iter().chain(std::iter::once((push, rest_rad))) {
+            if self.push(flap, motion, rest_rad).is_none() {
+                (self.at, self.opening_m, self.angles_rad) = (before.0, before.1, before.2);
+                self.pieces.truncate(before.3);
+                return Err(WhyNot { by_flaps: false, ..WhyNot::by_boards(&Obstacle::NoWay { to: "to it" }) });
+            }
+        }
         self.order.push(flap);
         Ok(rest_rad)
+    }
+
+    /// One push and the way to it.
+    fn push(&mut self, flap: usize, push: PushMotion, rest_rad: f64) -> Option<()> {
+        let ready = self.closer.arm.ready;
+        if push.opening_m != self.opening_m {
+            // The gripper opens and closes where there is room.
+            let back = self.transit(&ready, &ready, flap)?;
+            self.add_transit(back);
+            self.opening_m = push.opening_m;
+        }
+        let transit = self.transit(&push.approach[0], &ready, flap)?;
+        self.add_transit(transit);
+        let (pushed, opening_m, meanwhile) = (Some(flap), push.opening_m, push.meanwhile_rad);
+        let mut held = meanwhile.clone();
+        held[flap] = push.hinge_rad[push.hinge_rad.len() - 1];
+        self.add(Piece::new(Kind::Approach, pushed, push.approach, meanwhile.clone(), opening_m));
+        let piece = Piece::new(Kind::Push, pushed, push.push, meanwhile, opening_m);
+        self.add(Piece { hinge_rad: push.hinge_rad, contact: push.contact, ..piece });
+        self.add(Piece::new(Kind::Retreat, pushed, push.retreat, held, opening_m));
+        self.angles_rad[flap] = rest_rad;
+        Some(())
+    }
+
+    fn add_transit(&mut self, way: Vec<JointPositions>) {
+        self.add(Piece::new(Kind::Transit, None, way, self.angles_rad.clone(), self.opening_m));
     }
 
     /// Back to where the arm began, if there is a way: an arm that stays stands clear.
     fn home(&mut self, start: &JointPositions) {
         let Some(&last) = self.order.last() else { return };
         if let Some(transit) = self.transit(start, &self.closer.arm.ready.clone(), last) {
-            self.add(Piece::new(Kind::Transit, None, transit, self.angles_rad.clone()));
+            self.add_transit(transit);
         }
     }
 
@@ -254,8 +196,9 @@ impl<G: Guard> Way<'_, '_, G> {
         let moment = Moment::resting(&self.angles_rad);
         let closer = self.closer;
         let settings = closer.settings_of(flap);
+        let guard = closer.guard.with_opening(self.opening_m);
         let step_rad = settings.joint_step_rad;
-        Transit { arm: closer.arm, guard: closer.guard, settings, moment: &moment, step_rad }.way(&self.at, to, via)
+        Transit { arm: closer.arm, guard: &guard, settings, moment: &moment, step_rad }.way(&self.at, to, via)
     }
 
     fn add(&mut self, piece: Piece) {

@@ -73,6 +73,11 @@ impl Flap {
         self.outline.iter().map(|corner| corner[1]).fold(0.0, f64::max)
     }
 
+    /// Where the free edge begins and ends along the hinge.
+    pub fn edge_m(&self) -> [f64; 2] {
+        [self.outline[3][0], self.outline[2][0]]
+    }
+
     pub fn area_m2(&self) -> f64 {
         let pairs = (0..4).map(|k| (self.outline[k], self.outline[(k + 1) % 4]));
         pairs.map(|(p, q)| p[0] * q[1] - p[1] * q[0]).sum::<f64>().abs() / 2.0

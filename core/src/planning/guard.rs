@@ -36,6 +36,11 @@ pub trait Guard {
     /// The same of the gripper and its fingers alone, wherever the arm is that holds them: quick, and mostly enough to say no.
     fn tool_conflict(&self, base_from_tool: &Rigid, moment: &Moment, clearance_m: f64) -> Option<Obstacle>;
 
+    /// The same of the arm with its fingers so far open.
+    fn with_opening(&self, opening_m: f64) -> Self
+    where
+        Self: Sized;
+
     /// A new question begins: what comes too near to what is told again.
     fn explain_anew(&self) {}
 }

@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::guard::Moment;
 use super::push::PushMotion;
 use super::reason::WhyNot;
+use super::settings::PlanningSettings;
 
 pub type Tried = Result<PushMotion, WhyNot>;
 
@@ -54,6 +55,58 @@ impl Known {
 
     pub fn seconds(&self, flap: usize) -> f64 {
         self.seconds.borrow().get(&flap).copied().unwrap_or(0.0)
+    }
+}
+
+/// How often a flap is planned again with wider margins, where its motion came too near to something between two postures, before
+/// it is left open.
+const WIDER: i32 = 2;
+
+/// How wide each flap's margins are by now, and what was tried so far.
+#[derive(Debug)]
+pub struct Margins {
+    /// The settings of flaps whose margins were widened, once, twice, and so on; and how often each was, in the problem's order.
+    wider: Vec<PlanningSettings>,
+    widened: Vec<usize>,
+    pub known: Known,
+}
+
+impl Margins {
+    /// Of so many flaps, none of them widened yet.
+    pub fn new(settings: &PlanningSettings, flaps: usize) -> Self {
+        let times = (2..=WIDER + 1).map(f64::from);
+        Self {
+            wider: times.map(|times| widened(settings, times)).collect(),
+            widened: vec![0; flaps],
+            known: Known::default(),
+        }
+    }
+
+    /// Its settings; None where its margins are the usual ones.
+    pub fn settings_of(&self, flap: usize) -> Option<&PlanningSettings> {
+        self.widened[flap].checked_sub(1).map(|times| &self.wider[times])
+    }
+
+    /// Once more for this flap; false where it was widened often enough.
+    pub fn widen(&mut self, flap: usize) -> bool {
+        let more = self.widened[flap] < self.wider.len();
+        self.widened[flap] += usize::from(more);
+        more
+    }
+
+    /// As [`Known::push`], with the flap's margins.
+    pub fn push(&self, flap: usize, moment: &Moment, force: Force, plan: impl FnOnce() -> Tried) -> Tried {
+        self.known.push(flap, self.widened[flap], moment, force, plan)
+    }
+}
+
+/// Settings with wider margins for what lies between postures, and postures closer together where the finger touches.
+fn widened(settings: &PlanningSettings, times: f64) -> PlanningSettings {
+    PlanningSettings {
+        search_margin_m: settings.search_margin_m * times,
+        sample_rad: settings.sample_rad / times,
+        touch_gap_m: settings.touch_gap_m * times,
+        ..settings.clone()
     }
 }
 

@@ -130,18 +130,37 @@ impl Stand {
         let centre = self.base.iter().sum::<Vec3>() / 4.0;
         let lift_n = force_n.dot(&self.up);
         let level_n = force_n - self.up * lift_n;
-        let spin_m = SPIN_SHARE * (self.base[2] - self.base[0]).norm();
-        let turn_n = (at - centre).cross(&level_n).dot(&self.up) / spin_m;
+        let turn_n = (at - centre).cross(&level_n).dot(&self.up) / self.spin_m();
         let drag_n = DRAG_SHARE * force_n.norm();
         let along_n = (level_n.norm_squared() + turn_n.powi(2) + drag_n.powi(2)).sqrt();
         let slides = (along_n + self.friction * lift_n) / (self.friction * self.weight_n);
-        (0..4).fold(slides, |worst, k| {
+        self.edges().into_iter().fold(slides, |worst, (p, outward, lever_m)| {
+            let over_n_m = level_n.dot(&outward) * (at - p).dot(&self.up) + lift_n * (p - at).dot(&outward);
+            worst.max(over_n_m / (self.weight_n * lever_m))
+        })
+    }
+
+    /// The same of a couple (N m): it turns the box on the spot, or tips it.
+    pub fn strain_of_couple(&self, couple_n_m: &Vec3) -> f64 {
+        let spins = couple_n_m.dot(&self.up).abs() / (self.friction * self.weight_n * self.spin_m());
+        self.edges().into_iter().fold(spins, |worst, (_, outward, lever_m)| {
+            worst.max(couple_n_m.dot(&self.up.cross(&outward)) / (self.weight_n * lever_m))
+        })
+    }
+
+    /// Where the friction of the base resists a turn as if all of it were so far from the middle.
+    fn spin_m(&self) -> f64 {
+        SPIN_SHARE * (self.base[2] - self.base[0]).norm()
+    }
+
+    /// Of each edge of the base: an end, the unit vector out of the base, and how far it is from the base's middle.
+    fn edges(&self) -> [(Vec3, Vec3, f64); 4] {
+        let centre = self.base.iter().sum::<Vec3>() / 4.0;
+        std::array::from_fn(|k| {
             let (p, q) = (self.base[k], self.base[(k + 1) % 4]);
             let outward = (q - p).cross(&self.up).normalize();
             let outward = if outward.dot(&(centre - p)) > 0.0 { -outward } else { outward };
-            let lever_m = (p - centre).dot(&outward);
-            let over_n_m = level_n.dot(&outward) * (at - p).dot(&self.up) + lift_n * (p - at).dot(&outward);
-            worst.max(over_n_m / (self.weight_n * lever_m))
+            (p, outward, (p - centre).dot(&outward))
         })
     }
 }
@@ -162,20 +181,27 @@ impl Load {
     /// Is there at every angle, from where a flap stands to closed, some place on it where a push square to its face turns it and
     /// leaves the box standing? Statics alone, whatever the arm can reach.
     pub fn is_bearable(&self, problem: &BoxProblem, flap: usize) -> bool {
-        let (Some(stand), fold) = (&self.stand, self.folds[flap]) else { return true };
+        self.worst_strain(problem, flap) <= 1.0
+    }
+
+    /// The share of what moves the box that such a push is, at the best place of the worst angle (eq. 97).
+    pub fn worst_strain(&self, problem: &BoxProblem, flap: usize) -> f64 {
+        let (Some(stand), fold) = (&self.stand, self.folds[flap]) else { return 0.0 };
         let flap = &problem.flaps[flap];
         let places = || (0..PLACES * PLACES).map(|k| [k % PLACES, k / PLACES].map(|k| (k + 1) as f64 / PLACES as f64));
         let steps = (flap.position_rad / BEARABLE_STEP_RAD).ceil().max(1.0) as usize;
-        (0..=steps).all(|step| {
+        let strains = (0..=steps).map(|step| {
             let angle_rad = flap.position_rad * (1.0 - step as f64 / steps as f64);
             let frame = flap.frame(angle_rad);
-            places().any(|[along, away]| {
+            let strain = |[along, away]: [f64; 2]| {
                 let lever_m = away * flap.length_m();
                 let at = frame.at(along * flap.hinge_length_m(), lever_m, problem.thickness_m / 2.0);
                 let push_n = fold.closing_n_m(angle_rad).max(0.0) / lever_m;
-                stand.strain(&at, &(frame.push() * push_n)) <= 1.0
-            })
-        })
+                stand.strain(&at, &(frame.push() * push_n))
+            };
+            places().map(strain).fold(f64::INFINITY, f64::min)
+        });
+        strains.fold(0.0, f64::max)
     }
 }
 
@@ -220,6 +246,28 @@ mod tests {
         assert!(stand().strain(&at, &Vec3::new(0.0, 0.0, -50.0)) <= 0.0);
         // A box lifted whole slides first, as the finger drags it: (3 + 4) / 4.
         assert!((stand().strain(&at, &Vec3::new(0.0, 0.0, 10.0)) - 1.75).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_couple_tips_and_spins_but_does_not_slide() {
+        // 10 N with levers of 0.1 and 0.05 m; the base's friction of 4 N at a share of the diagonal.
+        let spin_m = SPIN_SHARE * f64::hypot(0.2, 0.1);
+        let asked = [
+            (Vec3::new(0.0, 0.5, 0.0), 0.5),
+            (Vec3::new(0.0, -0.5, 0.0), 0.5),
+            (Vec3::new(0.5, 0.0, 0.0), 1.0),
+            (Vec3::new(0.0, 0.0, 0.1), 0.1 / (4.0 * spin_m)),
+        ];
+        let counted = asked.map(|(couple_n_m, share)| {
+            let strain = stand().strain_of_couple(&couple_n_m);
+            assert!((strain - share).abs() < 1e-9, "{couple_n_m:?}: {strain}");
+        });
+        assert_eq!(counted.len(), 4);
+        // The same as two opposite forces at either end of an arm, one over the other, but for what slides.
+        let (up, down) = (Vec3::new(0.0, 0.0, 0.3), Vec3::new(0.0, 0.0, 0.1));
+        let force_n = Vec3::new(2.0, 0.0, 0.0);
+        let couple = (up - down).cross(&force_n);
+        assert!((stand().strain_of_couple(&couple) - 0.4).abs() < 1e-9);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! and brute force (`exhaustive`), which tables hold the planner against. Metres, radians, the robot's base frame.
 
 mod answer;
+mod astride;
 mod beam;
 mod boards;
 mod closing;
@@ -12,6 +13,7 @@ mod contact;
 mod exhaustive;
 mod first_layer;
 mod flap;
+mod fork;
 mod guard;
 mod hold;
 mod known;
@@ -25,6 +27,7 @@ mod planes;
 mod posture;
 mod problem;
 mod push;
+mod pushes;
 mod reached;
 mod reason;
 mod request;
@@ -41,7 +44,7 @@ pub use closing::{Closer, Closing, Outcome};
 pub use contact::{Contacts, Grip};
 pub use flap::{Flap, FlapFrame, Standing};
 pub use guard::{Guard, Moment};
-pub use known::Known;
+pub use known::Margins;
 pub use load::{Assumed, Fold, Load, Stand};
 pub use piece::{Kind, Piece};
 pub use problem::{Board, BoxProblem, MeasuredBox, MeasuredFlap};

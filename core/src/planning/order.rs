@@ -108,7 +108,7 @@ struct Search<'a, 'b, G: Guard> {
 }
 
 /// A flap for which so many searches found nothing, after different others, is not tried again.
-const MOST_SEARCHES: usize = 3;
+const MOST_SEARCHES: usize = 2;
 
 impl<G: Guard> Search<'_, '_, G> {
     /// True when all are closed.

@@ -24,11 +24,19 @@ pub struct Piece {
     pub contact: Vec<Vec3>,
     /// Where all flaps are meanwhile, rad; in a push the pushed one moves.
     pub angles_rad: Vec<f64>,
+    /// The free gap between the fingers.
+    pub opening_m: f64,
 }
 
 impl Piece {
-    pub fn new(kind: Kind, flap: Option<usize>, positions: Vec<JointPositions>, angles_rad: Vec<f64>) -> Self {
-        Self { kind, flap, positions, hinge_rad: Vec::new(), contact: Vec::new(), angles_rad }
+    pub fn new(
+        kind: Kind,
+        flap: Option<usize>,
+        positions: Vec<JointPositions>,
+        angles_rad: Vec<f64>,
+        opening_m: f64,
+    ) -> Self {
+        Self { kind, flap, positions, hinge_rad: Vec::new(), contact: Vec::new(), angles_rad, opening_m }
     }
 }
 

@@ -188,6 +188,8 @@ impl<G: Guard> PlanesSearch<'_, '_, G> {
             push: rows.into_iter().map(|row| row.1).collect(),
             retreat,
             meanwhile_rad: pressed.angles_rad,
+            opening_m: pusher.arm.gripper.opening_m[0],
+            first: None,
         })
     }
 }

@@ -1,5 +1,7 @@
 //! One flap's push: the layered search's path made smooth and dense, with the ways to it and away from it.
 
+use std::cell::Cell;
+
 use nalgebra::UnitQuaternion;
 
 use super::beam::State;
@@ -17,7 +19,7 @@ use crate::arm::{Arm, JointPositions};
 use crate::geometry::Vec3;
 
 /// A flap's closing: postures close together, each part beginning where the one before ends.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct PushMotion {
     pub approach: Vec<JointPositions>,
     pub push: Vec<JointPositions>,
@@ -27,6 +29,10 @@ pub struct PushMotion {
     pub retreat: Vec<JointPositions>,
     /// Where all flaps are meanwhile, rad: those that are closed give way.
     pub meanwhile_rad: Vec<f64>,
+    /// The free gap between the fingers.
+    pub opening_m: f64,
+    /// What turns the flap first, until this can push it.
+    pub first: Option<Box<PushMotion>>,
 }
 
 /// Plans the push of one flap.
@@ -64,6 +70,7 @@ impl<G: Guard> Pusher<'_, G> {
             pressed,
             angles_rad,
             moments,
+            caught: Cell::new(0),
         };
         let fine_settings = self.settings.with_fine_contacts();
         let over_settings = self.settings.with_contacts_over_edges();
@@ -71,6 +78,9 @@ impl<G: Guard> Pusher<'_, G> {
         self.guard.explain_anew();
         let mut why = None;
         for (k, &beam) in self.settings.beams.iter().enumerate() {
+            if search.is_caught() {
+                break;
+            }
             let contacts = [&self.contacts, &fine, &over][k.min(2)];
             match search.run(beam, contacts) {
                 Ok(motion) => return Ok(motion),
@@ -143,6 +153,8 @@ impl<G: Guard> Pusher<'_, G> {
             contact: Vec::new(),
             retreat: Vec::new(),
             meanwhile_rad: layers.moment.angles_rad.clone(),
+            opening_m: self.arm.gripper.opening_m[0],
+            first: None,
         };
         let mut last = start;
         for step in 0..=steps {
@@ -184,11 +196,7 @@ impl<G: Guard> Pusher<'_, G> {
             (None, None, Some(other)) => (Status::Blocked, other),
             (None, None, None) => (Status::Unreachable, &Obstacle::Reach),
         };
-        let by_flaps = tally.any(|obstacle| match obstacle {
-            Obstacle::Near { other, .. } => !self.contacts.flap.is_own(other) && other.starts_with(['f', 't']),
-            Obstacle::Something => true,
-            _ => false,
-        });
+        let by_flaps = tally.any(|obstacle| obstacle.is_flap_beside(self.contacts.flap));
         let moves_box = tally.any(|obstacle| *obstacle == Obstacle::Moves);
         WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, at_start, moves_box, searched: true }
     }

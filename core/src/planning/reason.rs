@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::flap::Flap;
+
 /// What kept a posture of the arm from being used.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Obstacle {
@@ -23,6 +25,17 @@ pub enum Obstacle {
     Jump,
     /// There is no way from the arm's posture before to this flap, or back.
     NoWay { to: &'static str },
+}
+
+impl Obstacle {
+    /// Is it another flap than this, or may it be?
+    pub fn is_flap_beside(&self, flap: &Flap) -> bool {
+        match self {
+            Self::Near { other, .. } => !flap.is_own(other) && other.starts_with(['f', 't']),
+            Self::Something => true,
+            _ => false,
+        }
+    }
 }
 
 impl fmt::Display for Obstacle {
@@ -109,6 +122,12 @@ pub struct WhyNot {
 }
 
 impl WhyNot {
+    /// No push of one finger leaves the box where it is.
+    pub fn moving() -> Self {
+        let reason = format!("where it stands: {}", Obstacle::Moves);
+        Self { status: Status::Blocked, reason, by_flaps: false, at_start: true, moves_box: true, searched: true }
+    }
+
     /// Boards are in the way, whatever the arm does.
     pub fn by_boards(obstacle: &Obstacle) -> Self {
         let reason = obstacle.to_string();

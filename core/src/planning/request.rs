@@ -1,13 +1,15 @@
 //! The planner's face: one question as data, one answer as data.
 
+use std::collections::HashSet;
+
 use serde::Deserialize;
 
-use super::answer::{timed, Answer};
+use super::answer::{timed, Answer, Conflict};
 use super::closing::Closer;
 use super::exhaustive::Exhaustive;
 use super::flap::Standing;
 use super::guard::Moment;
-use super::known::Known;
+use super::known::Margins;
 use super::load::Load;
 use super::problem::MeasuredBox;
 use super::reason::Obstacle;
@@ -27,10 +29,6 @@ pub struct SceneBox {
     pub rotation: [[f64; 3]; 3],
     pub size_m: [f64; 3],
 }
-
-/// How often a flap is planned again with wider margins, where its motion came too near to something between two postures, before
-/// it is left open.
-const WIDER: i32 = 2;
 
 /// What is to be closed, amid what, and how.
 #[derive(Debug, Clone, Deserialize)]
@@ -90,8 +88,7 @@ impl Request {
         let scene = self.scene.iter().map(|thing| (thing.name.clone(), thing.solid())).collect();
         let guard = Surroundings::new(arm, &problem, scene);
         guard.check_base()?;
-        let (wider, known) = (widened(settings), Known::default());
-        let mut widened = vec![0; problem.flaps.len()];
+        let mut margins = Margins::new(settings, problem.flaps.len());
         let mut left_open: Vec<(String, Obstacle)> = Vec::new();
         loop {
             let left: Vec<&str> = left_open.iter().map(|(name, _)| name.as_str()).collect();
@@ -101,9 +98,7 @@ impl Request {
                 problem: &problem,
                 load: &load,
                 settings,
-                wider: &wider,
-                widened: &widened,
-                known: &known,
+                margins: &margins,
                 method: self.method,
                 only: &self.only,
                 left_open: &left,
@@ -115,34 +110,15 @@ impl Request {
                 return Ok(answer);
             }
             // One more of a flap's margins is wider each time, or one more flap is left open: this ends.
-            let mut flaps: Vec<(String, Obstacle)> =
-                conflicts.into_iter().map(|conflict| (conflict.flap, conflict.obstacle)).collect();
-            flaps.dedup_by(|a, b| a.0 == b.0);
-            for (name, obstacle) in flaps {
-                match problem
-                    .flaps
-                    .iter()
-                    .position(|flap| flap.name == name)
-                    .filter(|&flap| widened[flap] < wider.len())
-                {
-                    Some(flap) => widened[flap] += 1,
-                    None => left_open.push((name, obstacle)),
+            let mut seen = HashSet::new();
+            for Conflict { flap: name, obstacle, .. } in conflicts {
+                let number = problem.flaps.iter().position(|flap| flap.name == name);
+                if seen.insert(name.clone()) && !number.is_some_and(|flap| margins.widen(flap)) {
+                    left_open.push((name, obstacle));
                 }
             }
         }
     }
-}
-
-/// Settings with wider margins for what lies between postures, and postures closer together where the finger touches.
-fn widened(settings: &PlanningSettings) -> Vec<PlanningSettings> {
-    let times = (2..=WIDER + 1).map(f64::from);
-    let wider = times.map(|times| PlanningSettings {
-        search_margin_m: settings.search_margin_m * times,
-        sample_rad: settings.sample_rad / times,
-        touch_gap_m: settings.touch_gap_m * times,
-        ..settings.clone()
-    });
-    wider.collect()
 }
 
 impl Request {

@@ -1,14 +1,17 @@
 //! The searches for one flap's push: from where it stands, and from its end.
 
+use std::cell::Cell;
+
+use super::beam::State;
 use super::contact::{Contacts, Grip};
 use super::guard::{Guard, Moment};
 use super::layers::{Found, Layers};
 use super::line::Lines;
 use super::push::{PushMotion, Pusher};
-use super::reason::{Tally, WhyNot};
+use super::reason::{Obstacle, Tally, WhyNot};
 use super::settings::PlanningSettings;
 use super::transit::Transit;
-use crate::arm::JointPositions;
+use crate::arm::{Arm, JointPositions};
 
 /// One flap's searches, and where the flaps are before, during and after them.
 pub struct Search<'a, 'b, G: Guard> {
@@ -21,6 +24,8 @@ pub struct Search<'a, 'b, G: Guard> {
     pub pressed: Moment,
     pub angles_rad: Vec<f64>,
     pub moments: Vec<Moment>,
+    /// Motions so far after which the arm was caught.
+    pub caught: Cell<usize>,
 }
 
 impl<G: Guard> Search<'_, '_, G> {
@@ -50,7 +55,7 @@ impl<G: Guard> Search<'_, '_, G> {
             Err(stuck) => stuck,
         };
         let (layer, tally) = stuck;
-        if layer > 0 {
+        if layer > 0 && !self.is_caught() {
             let (back_rad, back_moments) = (reversed(&self.angles_rad), reversed(&self.moments));
             let back = Layers { angles_rad: &back_rad, moments: &back_moments, ..layers };
             let found = back.search(beam, &mut leaves, &mut comes).reversed();
@@ -61,16 +66,14 @@ impl<G: Guard> Search<'_, '_, G> {
         Err(pusher.why_stuck(self.angles_rad[layer], layer == 0, &tally))
     }
 
-    /// Do a motion's ends lie open, so that the arm finds from one to its ready pose and from there to the other?
-    fn comes_and_goes(&self, motion: &PushMotion) -> bool {
+    fn comes_and_goes(&self, motion: &PushMotion) -> (bool, bool) {
         let Pusher { arm, guard, settings, .. } = self.pusher;
-        let settings = PlanningSettings { transit_tries: POCKET_TRIES, ..(*settings).clone() };
-        let leads = |end: Option<&JointPositions>, moment: &Moment| {
-            let transit =
-                Transit { arm, guard: *guard, settings: &settings, moment, step_rad: settings.joint_step_rad };
-            end.is_some_and(|end| transit.is_connected(end, &arm.ready))
-        };
-        leads(motion.approach.first(), &self.before) && leads(motion.retreat.last(), &self.after)
+        comes_and_goes(arm, *guard, settings, motion, (&self.before, &self.after))
+    }
+
+    /// Was the arm caught so often that it will be again?
+    pub fn is_caught(&self) -> bool {
+        self.caught.get() > MOST_CAUGHT_IN_ALL
     }
 
     /// The first of the paths that holds between its layers too and whose ends lie open, else the layer at which they end and what was in the way.
@@ -81,29 +84,68 @@ impl<G: Guard> Search<'_, '_, G> {
         };
         let mut tally = Tally::default();
         self.pusher.guard.explain_anew();
-        let mut pocketed = Vec::new();
+        let mut caught: Vec<(PushMotion, bool)> = Vec::new();
         for path in &paths {
+            // Another turn of the wrist does not lead out of where the arm is caught.
+            if caught.iter().any(|(motion, _)| is_alike(motion, path)) {
+                continue;
+            }
             let (first, last) = ((&self.touching, &self.before), (&self.held, &self.after));
             match self.pusher.dense(layers, path, &self.lines, first, last) {
-                Ok(motion) if self.comes_and_goes(&motion) => return Ok(motion),
-                Ok(motion) => pocketed.push(motion),
+                Ok(motion) => match self.comes_and_goes(&motion) {
+                    (true, true) => return Ok(motion),
+                    (_, goes) => caught.push((motion, goes)),
+                },
                 Err(obstacle) => tally.add(obstacle),
             }
-            if pocketed.len() > MOST_POCKETED {
+            if caught.len() > MOST_CAUGHT || self.caught.get() + caught.len() > MOST_CAUGHT_IN_ALL {
                 break;
             }
         }
-        if let Some(motion) = pocketed.into_iter().next() {
-            // Too few tries prove nothing.
+        self.caught.set(self.caught.get() + caught.len());
+        if !caught.is_empty() {
+            tally.add(Obstacle::NoWay { to: "back from it" });
+        }
+        // Too few tries prove nothing; but an arm that is caught after a push pushes no other.
+        if let Some((motion, _)) = caught.into_iter().find(|(_, goes)| *goes) {
             return Ok(motion);
         }
         Err((self.angles_rad.len() - 1, tally))
     }
 }
 
+/// Do a motion's ends lie open, before and after it, so that the arm finds from one to its ready pose and from there to the other?
+pub fn comes_and_goes<G: Guard>(
+    arm: &Arm,
+    guard: &G,
+    settings: &PlanningSettings,
+    motion: &PushMotion,
+    (before, after): (&Moment, &Moment),
+) -> (bool, bool) {
+    let settings = PlanningSettings { transit_tries: CAUGHT_TRIES, ..settings.clone() };
+    let leads = |end: Option<&JointPositions>, moment: &Moment| {
+        let transit = Transit { arm, guard, settings: &settings, moment, step_rad: settings.joint_step_rad };
+        end.is_some_and(|end| transit.is_connected(end, &arm.ready))
+    };
+    let goes = leads(motion.retreat.last(), after);
+    (goes && leads(motion.approach.first(), before), goes)
+}
+
 /// How hard it is tried to get out of where a motion ends, and how many paths are given up for it.
-const POCKET_TRIES: usize = 300;
-const MOST_POCKETED: usize = 3;
+const CAUGHT_TRIES: usize = 250;
+const MOST_CAUGHT: usize = 2;
+const MOST_CAUGHT_IN_ALL: usize = 4;
+
+/// Does a path begin and end with the arm, but for its wrist, where a motion does?
+fn is_alike(motion: &PushMotion, path: &[State]) -> bool {
+    let same =
+        |a: &JointPositions, b: &JointPositions| a.iter().zip(b.iter()).take(3).all(|(p, q)| (p - q).abs() < ALIKE_RAD);
+    same(&motion.push[0], &path[0].positions)
+        && same(&motion.push[motion.push.len() - 1], &path[path.len() - 1].positions)
+}
+
+/// Arms no joint of which is turned further than this from one to the other stand alike.
+const ALIKE_RAD: f64 = 0.15;
 
 fn reversed<T: Clone>(items: &[T]) -> Vec<T> {
     items.iter().rev().cloned().collect()

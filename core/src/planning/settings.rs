@@ -36,6 +36,7 @@ pub struct PlanningSettings {
     pub slides_home_rad: f64,
     /// How far below a flap that is pushed onto others those are taken to give way.
     pub under_rad: f64,
+    pub fork: ForkSettings,
     /// Between two layers of the search, at most.
     pub layer_rad: f64,
     /// Between two samples of a push, at most.
@@ -100,6 +101,53 @@ pub struct FineContacts {
     pub least_hook_m: f64,
 }
 
+/// How the open fingers go astride a flap that a push cannot turn without moving the box.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ForkSettings {
+    /// Flaps whose push would be a greater share of what moves the box are turned so first; others where a push alone does not do.
+    pub least_strain: f64,
+    /// Each finger is planned this far off the board.
+    pub gap_m: f64,
+    /// How far the tips reach in from the free edge: at most so far and so near to the hinge, and shares of that, but never less.
+    pub most_depth_m: f64,
+    pub least_tip_m: f64,
+    pub least_depth_m: f64,
+    pub depths: [f64; 2],
+    /// By how much the tool leans ahead of the flap, and turns in its plane.
+    pub leans_rad: Vec<f64>,
+    pub yaws_rad: Vec<f64>,
+    /// From the free edge's ends to the tool's middle, and how many places to either side of its middle.
+    pub inset_m: f64,
+    pub places: usize,
+    /// From the free edge to fingers that come over an end of the flap, where it is long enough.
+    pub edge_m: f64,
+    /// The flap is turned down to the first, at the least to the second; a push goes on from where it springs back to.
+    pub wanted_rad: f64,
+    pub far_enough_rad: f64,
+}
+
+impl Default for ForkSettings {
+    fn default() -> Self {
+        let degrees = |values: &[f64]| values.iter().map(|value| value.to_radians()).collect();
+        Self {
+            least_strain: 0.6,
+            gap_m: 0.0015,
+            most_depth_m: 0.05,
+            least_tip_m: 0.008,
+            least_depth_m: 0.010,
+            depths: [1.0, 0.6],
+            leans_rad: degrees(&[20.0, 32.0, 12.0]),
+            yaws_rad: degrees(&[0.0, 25.0, -25.0]),
+            inset_m: 0.015,
+            places: 2,
+            edge_m: 0.005,
+            wanted_rad: 40f64.to_radians(),
+            far_enough_rad: 62f64.to_radians(),
+        }
+    }
+}
+
 impl Default for FineContacts {
     fn default() -> Self {
         Self {
@@ -153,6 +201,7 @@ impl Default for PlanningSettings {
             most_strain: 0.85,
             slides_home_rad: 80f64.to_radians(),
             under_rad: 4f64.to_radians(),
+            fork: ForkSettings::default(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
             beams: vec![16, 100, 40],

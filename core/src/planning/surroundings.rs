@@ -60,7 +60,7 @@ impl<'a> Surroundings<'a> {
             state: RefCell::new(State { world, at: None, rules: Vec::new() }),
             boards,
             conflicts: Cell::new(0),
-            tool: tool_pieces(arm),
+            tool: tool_pieces(arm, arm.gripper.opening_m[0]),
         }
     }
 
@@ -117,10 +117,10 @@ impl<'a> Surroundings<'a> {
     }
 }
 
-fn tool_pieces(arm: &Arm) -> Vec<(bool, Rigid, Vec3)> {
+fn tool_pieces(arm: &Arm, opening_m: f64) -> Vec<(bool, Rigid, Vec3)> {
     let gripper = &arm.gripper;
     let tool_from_flange = gripper.flange_from_tool().inverse();
-    let fingers = gripper.fingers(gripper.opening_m[0]).map(|finger| (true, finger));
+    let fingers = gripper.fingers(opening_m).map(|finger| (true, finger));
     let shapes = fingers.into_iter().chain(std::iter::once((false, gripper.body())));
     let boxes = shapes.filter_map(|(is_finger, shape)| match shape {
         Shape::Box { body_from_box, half_m } => Some((is_finger, tool_from_flange.then(&body_from_box), half_m)),
@@ -191,6 +191,18 @@ impl Guard for Surroundings<'_> {
             }
         }
         None
+    }
+
+    fn with_opening(&self, opening_m: f64) -> Self {
+        let state = self.state.borrow();
+        Self {
+            pieces: ArmPieces::new(self.arm, opening_m),
+            state: RefCell::new(State { world: state.world.clone(), at: state.at.clone(), rules: Vec::new() }),
+            boards: self.boards.clone(),
+            conflicts: self.conflicts.clone(),
+            tool: tool_pieces(self.arm, opening_m),
+            ..*self
+        }
     }
 
     fn explain_anew(&self) {

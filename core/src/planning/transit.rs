@@ -30,8 +30,16 @@ const GROWTH: usize = 8;
 const AROUND_RAD: f64 = 0.6;
 
 impl<G: Guard> Transit<'_, G> {
-    /// Postures from one to the other, the straight lines between which are clear; None where no way was found.
+    /// Postures from one to the other, the straight lines between which are clear, by way of `via` where none was found without;
+    /// None where no way was found.
     pub fn way(&self, from: &JointPositions, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
+        self.leg(from, to, via).or_else(|| {
+            let (first, second) = (self.leg(from, via, via)?, self.leg(via, to, via)?);
+            Some([&first[..], &second[1..]].concat())
+        })
+    }
+
+    fn leg(&self, from: &JointPositions, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
         // Fine steps take long and are seldom needed: a way found with coarse ones is looked at again with fine ones.
         FINER
             .into_iter()
@@ -246,6 +254,10 @@ mod tests {
 
         fn tool_conflict(&self, _: &Rigid, _: &Moment, _: f64) -> Option<Obstacle> {
             None
+        }
+
+        fn with_opening(&self, _: f64) -> Self {
+            Self
         }
     }
 

@@ -1,0 +1,175 @@
+//! Turns a flap with the fingers astride its free edge. A couple loads the box far less than a push that turns the flap as far (eq. 97):
+//! it slides nothing, and tips with less of a lever.
+
+use super::astride::{all_astride, Astride};
+use super::contact::Grip;
+use super::flap::Flap;
+use super::guard::{Guard, Moment};
+use super::line::Lines;
+use super::load::{Fold, Stand};
+use super::posture::nearest;
+use super::push::{layers_between, PushMotion};
+use super::searches::comes_and_goes;
+use super::settings::PlanningSettings;
+use crate::arm::{Arm, JointPositions};
+use crate::geometry::Rigid;
+
+/// One flap before one arm.
+pub struct Fork<'a, G: Guard> {
+    pub arm: &'a Arm,
+    pub guard: &'a G,
+    pub settings: &'a PlanningSettings,
+    pub flap: &'a Flap,
+    pub number: usize,
+    pub thickness_m: f64,
+    pub fold: Fold,
+    pub stand: Option<&'a Stand>,
+    /// Where all flaps are before it.
+    pub before: &'a Moment,
+}
+
+/// The fingers at one opening.
+struct Held<'a, G: Guard> {
+    fork: &'a Fork<'a, G>,
+    guard: G,
+    astride: Astride,
+}
+
+impl<G: Guard> Fork<'_, G> {
+    /// The first way that turns the flap down from where it stands to where a push can go on, and where it rests then (rad).
+    pub fn plan(&self) -> Option<(PushMotion, f64)> {
+        let all = all_astride(self.arm, self.flap, self.thickness_m, &self.settings.fork);
+        all.into_iter()
+            .filter(|astride| !self.moves_box(astride))
+            .find_map(|astride| Held { fork: self, guard: self.guard.with_opening(astride.opening_m), astride }.plan())
+    }
+
+    /// Does the couple turn the box, or tip it, where the flap stands or where it is left?
+    fn moves_box(&self, astride: &Astride) -> bool {
+        let Some(stand) = self.stand else { return false };
+        let couple_n_m = self.fold.crease_n_m + self.fold.weight_n_m;
+        [self.start_rad(), self.settings.fork.far_enough_rad].iter().any(|&angle_rad| {
+            let frame = self.flap.frame(angle_rad);
+            let couple = (frame.away * astride.twist - frame.along) * couple_n_m;
+            stand.strain_of_couple(&couple) > self.settings.most_strain
+        })
+    }
+
+    fn start_rad(&self) -> f64 {
+        self.before.angles_rad[self.number]
+    }
+}
+
+impl<G: Guard> Held<'_, G> {
+    fn plan(&self) -> Option<(PushMotion, f64)> {
+        let fork = self.fork;
+        let start_rad = fork.start_rad();
+        let places = [(start_rad, 0.0), (start_rad, 1.0), (fork.settings.fork.far_enough_rad, 1.0)];
+        let is_near = |(angle_rad, lean): (f64, f64)| {
+            self.guard.tool_conflict(&self.pose(angle_rad, lean), &self.at(angle_rad), self.clearance_m()).is_some()
+        };
+        if places.into_iter().any(is_near) {
+            return None;
+        }
+        let solutions = fork.arm.inverse(&self.pose(start_rad, 0.0));
+        solutions.iter().find_map(|solution| self.with_ends(self.turned(&solution.positions)?))
+    }
+
+    /// Leaning, down as far as the arm can follow, and flat again: first in wide steps, then in close ones.
+    fn turned(&self, start: &JointPositions) -> Option<PushMotion> {
+        let settings = self.fork.settings;
+        let far_enough_rad = settings.fork.far_enough_rad;
+        let wide = self.places(settings.fork.wanted_rad, settings.layer_rad, false);
+        let found = self.followed(start, &wide, settings.most_turn_rad);
+        let last = found.len().checked_sub(1).map_or((f64::INFINITY, 0.0), |last| wide[last]);
+        let mut to_rad = if last.1 < 1.0 { f64::INFINITY } else { last.0 };
+        while to_rad <= far_enough_rad {
+            let close = self.places(to_rad, settings.sample_rad, true);
+            let push = self.followed(start, &close, settings.most_sample_turn_rad);
+            if push.len() == close.len() {
+                return Some(self.motion(push, close.iter().map(|place| place.0).collect()));
+            }
+            to_rad += settings.layer_rad;
+        }
+        None
+    }
+
+    fn motion(&self, push: Vec<JointPositions>, hinge_rad: Vec<f64>) -> PushMotion {
+        let edge = (self.astride.pivot.x, self.fork.flap.length_m(), self.fork.thickness_m / 2.0);
+        let contact = |&angle_rad: &f64| self.fork.flap.frame(angle_rad).at(edge.0, edge.1, edge.2);
+        PushMotion {
+            contact: hinge_rad.iter().map(contact).collect(),
+            push,
+            hinge_rad,
+            opening_m: self.astride.opening_m,
+            meanwhile_rad: self.fork.before.angles_rad.clone(),
+            ..PushMotion::default()
+        }
+    }
+
+    /// The flap's angles, and what share of its lean the tool leans by then.
+    fn places(&self, to_rad: f64, step_rad: f64, to_end: bool) -> Vec<(f64, f64)> {
+        let start_rad = self.fork.start_rad();
+        let leans = layers_between(0.0, 1.0, step_rad / self.astride.lean_rad);
+        let leaning = leans.iter().map(|&lean| (start_rad, lean));
+        let turning = layers_between(start_rad, to_rad, step_rad).into_iter().skip(1).map(|angle_rad| (angle_rad, 1.0));
+        let back = leans.iter().rev().skip(1).filter(|_| to_end).map(|&lean| (to_rad, lean));
+        leaning.chain(turning).chain(back).collect()
+    }
+
+    /// Postures place by place, as far as they are clear and the arm need not jump.
+    fn followed(&self, start: &JointPositions, places: &[(f64, f64)], most_turn_rad: f64) -> Vec<JointPositions> {
+        let mut found: Vec<JointPositions> = Vec::new();
+        for &(angle_rad, lean) in places {
+            let last = found.last().unwrap_or(start);
+            let solutions = self.fork.arm.inverse_near(&self.pose(angle_rad, lean), last);
+            match nearest(&solutions, last).filter(|(_, turn)| *turn <= most_turn_rad) {
+                Some((positions, _)) if self.is_clear(&positions, angle_rad) => found.push(positions),
+                _ => break,
+            }
+        }
+        found
+    }
+
+    fn is_clear(&self, positions: &JointPositions, angle_rad: f64) -> bool {
+        self.guard.conflict(positions, &self.at(angle_rad), self.clearance_m()).is_none()
+    }
+
+    /// With the ways to it and away from it; the flap follows the fingers' slack, then springs back.
+    fn with_ends(&self, mut motion: PushMotion) -> Option<(PushMotion, f64)> {
+        let fork = self.fork;
+        let lines = Lines { arm: fork.arm, guard: &self.guard, settings: fork.settings };
+        let (start_rad, held_rad) = (motion.hinge_rad[0], motion.hinge_rad[motion.hinge_rad.len() - 1]);
+        let rest_rad = fork.fold.rest_rad(held_rad + self.astride.slack_rad);
+        let after = fork.before.left(fork.number, rest_rad);
+        let frame = |angle_rad: f64| fork.flap.frame(angle_rad);
+        let grip = |angle_rad: f64, lean: f64| Grip {
+            base_from_tool: self.pose(angle_rad, lean),
+            contact: motion.contact[0],
+            strain: 0.0,
+            penalty: 0.0,
+        };
+        let (first, last) = (motion.push[0], motion.push[motion.push.len() - 1]);
+        let mut approach =
+            lines.leave(&first, &grip(start_rad, 0.0), &frame(start_rad), &self.at(start_rad), fork.before).ok()?;
+        approach.reverse();
+        let retreat = lines.leave(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after).ok()?;
+        motion = PushMotion { approach, retreat, ..motion };
+        if comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) != (true, true) {
+            return None;
+        }
+        Some((motion, rest_rad))
+    }
+
+    fn pose(&self, angle_rad: f64, lean: f64) -> Rigid {
+        self.fork.flap.frame(angle_rad).base_from_flap().then(&self.astride.flap_from_tool(lean))
+    }
+
+    fn at(&self, angle_rad: f64) -> Moment {
+        self.fork.before.pushing(self.fork.number, angle_rad)
+    }
+
+    fn clearance_m(&self) -> f64 {
+        self.fork.settings.clearance_m + self.fork.settings.search_margin_m
+    }
+}

@@ -1,0 +1,129 @@
+//! One flap's closing while the others stand as they do: a push, or what turns it first and then a push.
+
+use super::boards::met;
+use super::closing::Closer;
+use super::contact::Contacts;
+use super::fork::Fork;
+use super::guard::{Guard, Moment};
+use super::known::{Force, Tried};
+use super::orientations::OrientationGrid;
+use super::planes::PlanesSearch;
+use super::push::{closed_finger, PushMotion, Pusher};
+use super::reason::{Obstacle, WhyNot};
+use super::request::Method;
+use super::settings::PlanningSettings;
+
+impl<G: Guard> Closer<'_, G> {
+    /// One flap's push while the others stand as they do.
+    ///
+    /// # Errors
+    /// The status and the reason why there is none.
+    pub fn push(&self, flap: usize, moment: &Moment) -> Tried {
+        self.margins.push(flap, moment, Force::Careful, || self.push_anew(flap, moment))
+    }
+
+    fn push_anew(&self, flap: usize, moment: &Moment) -> Tried {
+        if self.method == Method::Paper {
+            return self.paper_push(flap, moment);
+        }
+        let hold_rad = self.hold_rad(flap, moment);
+        if let Some(obstacle) = self.kept_open(flap, moment, hold_rad) {
+            return Err(WhyNot::by_boards(&obstacle));
+        }
+        let strain = self.load.worst_strain(self.problem, flap);
+        if strain <= self.settings.fork.least_strain {
+            let pushed = self.careful_push(flap, moment, hold_rad);
+            return pushed.or_else(|why| self.fork_and_push(flap, moment, hold_rad, why));
+        }
+        // A box that a push nearly moves is moved by many: rather by a couple.
+        match self.fork_and_push(flap, moment, hold_rad, WhyNot::moving()) {
+            Err(_) if strain <= self.settings.most_strain.max(1.0) => self.careful_push(flap, moment, hold_rad),
+            tried => tried,
+        }
+    }
+
+    /// A push with a reserve to what moves the box.
+    fn careful_push(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Tried {
+        let most_strain = self.settings.most_strain;
+        let short_rad = self.settings.short_on_others_rad;
+        match self.pusher(flap, moment, hold_rad, most_strain).plan() {
+            // Arms that cannot follow the flap beyond closed may still lay it down.
+            Err(why) if hold_rad < 0.0 && !why.at_start => {
+                self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why)
+            }
+            tried => tried,
+        }
+    }
+
+    /// Turned with the fingers astride it until a push can go on: where a push from the start moves the box, or has no room.
+    fn fork_and_push(&self, flap: usize, moment: &Moment, hold_rad: f64, why: WhyNot) -> Tried {
+        let (board, fold) = (&self.problem.flaps[flap], self.load.folds[flap]);
+        let settings = self.settings_of(flap);
+        if !board.tucks.is_empty() || moment.angles_rad[flap] <= settings.fork.far_enough_rad {
+            return Err(why);
+        }
+        let stand = self.load.stand.as_ref();
+        let (arm, guard, thickness_m) = (self.arm, self.guard, self.problem.thickness_m);
+        let fork = Fork { arm, guard, settings, flap: board, number: flap, thickness_m, fold, stand, before: moment };
+        // Other flaps may stand better for it, before or after.
+        let (first, rest_rad) = fork.plan().ok_or(WhyNot { by_flaps: true, ..why })?;
+        let turned = moment.left(flap, rest_rad);
+        let push = self.careful_push(flap, &turned, hold_rad);
+        let push = push.or_else(|_| self.pusher(flap, &turned, hold_rad, f64::INFINITY).plan())?;
+        Ok(PushMotion { first: Some(Box::new(first)), ..push })
+    }
+
+    /// The same without a reserve of force; a flap that stands low closes even if the box slides a little. None where there is none.
+    pub fn push_home(&self, flap: usize, moment: &Moment) -> Option<PushMotion> {
+        let hold_rad = self.hold_rad(flap, moment);
+        let is_low = moment.angles_rad[flap] <= self.settings.slides_home_rad;
+        if self.kept_open(flap, moment, hold_rad).is_some() || !(is_low || self.load.is_bearable(self.problem, flap)) {
+            return None;
+        }
+        let most_strain = if is_low { f64::INFINITY } else { 1.0 };
+        let plan = || self.pusher(flap, moment, hold_rad, most_strain).plan();
+        self.margins.push(flap, moment, Force::Home, plan).ok()
+    }
+
+    /// The boards that keep a flap open, whatever the arm does.
+    fn kept_open(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Option<Obstacle> {
+        met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings).or_else(|| {
+            let is_propped = hold_rad > self.settings.most_propped_rad;
+            is_propped.then(|| Obstacle::Propped { flap: self.problem.flaps[flap].name.clone() })
+        })
+    }
+
+    /// A flap's settings, as wide as its margins are by now.
+    pub fn settings_of(&self, flap: usize) -> &PlanningSettings {
+        self.margins.settings_of(flap).unwrap_or(self.settings)
+    }
+
+    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
+        let settings = self.settings_of(flap);
+        let half_board_m = self.problem.thickness_m / 2.0;
+        Pusher {
+            arm: self.arm,
+            guard: self.guard,
+            settings,
+            contacts: Contacts::new(
+                &self.problem.flaps[flap],
+                closed_finger(self.arm),
+                half_board_m,
+                settings,
+                (self.load.folds[flap], self.load.stand.as_ref()),
+                OrientationGrid::coarse(),
+            ),
+            most_strain,
+            flap,
+            moment: moment.clone(),
+            hold_rad,
+            rest_rad: self.load.folds[flap].rest_rad(hold_rad).min(self.settings.closed_rad),
+        }
+    }
+
+    /// The paper's push, to closed and no further.
+    fn paper_push(&self, flap: usize, moment: &Moment) -> Tried {
+        let pusher = self.pusher(flap, moment, 0.0, f64::INFINITY);
+        PlanesSearch { pusher: &pusher, settings: self.settings_of(flap) }.plan()
+    }
+}
