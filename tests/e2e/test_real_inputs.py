@@ -58,13 +58,8 @@ def test_a_depth_image_is_the_cloud_it_was_published_as(real: Path, carton: tupl
     assert load_model(tmp_path / "frame-000000.depth/model.json").source.points == 640 * 480
 
 
-# The carton's gable is taken for a flap that leans inwards.
-MILK = "milk_carton_pcl/milk_cartoon_all_small_clorox.pcd"
-GABLE = pytest.mark.xfail(strict=True, reason="a milk carton's gable passes for a flap")
-
-
 @shipped_weights
-@pytest.mark.parametrize("name", [pytest.param(name, marks=GABLE) if name == MILK else name for name in NO_BOX])
+@pytest.mark.parametrize("name", NO_BOX)
 def test_no_open_box_where_there_is_none(real: Path, name: str, tmp_path: Path) -> None:
     assert boxwright("infer", real / name, "-o", tmp_path).status == 0
     assert load_model(tmp_path / Path(name).stem / "model.json").objects == ()

@@ -31,10 +31,8 @@ pub fn answer(
     let mut readings = Vec::new();
     for &(part, role) in &roles {
         let points = found.labels.of(role);
-        let features = found.part_features.iter().find(|(r, _)| *r == role).map(|(_, features)| features);
-        parts[part].probability = judgement.zip(features).map(|(judgement, f)| judgement.part_probability(f));
-        let least = judgement.map_or(0.0, Judgement::part_told_from);
-        if points.is_empty() || parts[part].probability.is_some_and(|p| p < least) {
+        parts[part].probability = judgement.and_then(|judgement| found.part_probability(role, judgement));
+        if points.is_empty() || judgement.is_some_and(|judgement| !found.is_probable(role, judgement)) {
             continue;
         }
         seen[part] = true;

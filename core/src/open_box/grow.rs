@@ -5,6 +5,7 @@ use super::evidence::{Evidence, Sheet};
 use super::features::{self, Features};
 use super::flap_scan::ScannedFlap;
 use super::hanging::{scan_flaps, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
+use super::judgement::Judgement;
 use super::owners::Owners;
 use super::refit::refit;
 use super::settle::is_sunk;
@@ -34,6 +35,19 @@ pub struct FoundBox {
     pub of_fewer: Option<NotFitted>,
     pub features: Features,
     pub part_features: Vec<(Role, Features)>,
+}
+
+impl FoundBox {
+    /// The probability that a part's readings are that part's; `None` of a part without readings.
+    pub fn part_probability(&self, role: Role, judgement: &Judgement) -> Option<f64> {
+        let features = self.part_features.iter().find(|(r, _)| *r == role).map(|(_, features)| features);
+        features.map(|features| judgement.part_probability(features))
+    }
+
+    /// Whether a part is told, if it has readings.
+    pub fn is_probable(&self, role: Role, judgement: &Judgement) -> bool {
+        self.part_probability(role, judgement).is_none_or(|p| p >= judgement.part_told_from())
+    }
 }
 
 /// How well proposals, bodies fitted once and fitted bodies are known, beside the noise.

@@ -2,6 +2,7 @@ use crate::body::ObjectAnswer;
 use crate::fit::{layout, Role};
 
 use super::grow::FoundBox;
+use super::judgement::Judgement;
 
 /// What tells a box's kind: of a fitted body what was seen of it, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,9 +41,11 @@ const MILLIMETRE: f64 = 0.001;
 const LIP_M: f64 = 0.06;
 
 impl Shape {
-    pub fn of_found(found: &FoundBox) -> Self {
+    /// By the flaps that are told.
+    pub fn of_found(found: &FoundBox, judgement: Option<&Judgement>) -> Self {
         let body = &found.solution.body;
-        let seen = |role: Role| !found.labels.of(role).is_empty();
+        let is_told = |role: Role| judgement.is_none_or(|judgement| found.is_probable(role, judgement));
+        let seen = |role: Role| !found.labels.of(role).is_empty() && is_told(role);
         let flap_m = |k: usize| body.get(layout::flap(k) + layout::FLAP_LENGTH);
         Self {
             dimensions_m: [layout::LENGTH, layout::WIDTH, layout::HEIGHT].map(|place| body.get(place)),

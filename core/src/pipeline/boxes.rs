@@ -75,7 +75,7 @@ fn lines(refused: &[Refused], first: &Sight) -> Vec<String> {
 /// Adds a box to the answer, or says why it is none.
 fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Telling) -> Option<Refusal> {
     let Telling { templates, kinds, judgement, sizes, settings } = telling;
-    let shape = Shape::of_found(one);
+    let shape = Shape::of_found(one, *judgement);
     // Some template is an open box, so one is chosen and tells it.
     let (number, probability) = kinds.choose(&shape, templates)?;
     let told = open_box::answer(one, templates[number], probability, sights, sizes, settings, *judgement);
