@@ -65,6 +65,7 @@ impl ScanRange {
 
 const STEP_RAD: f64 = 0.06;
 const FAR_STEP_RAD: f64 = 0.03;
+/// Where a board is seen from its edge, and to either side so many of them.
 const EDGE_ON_STEP_RAD: f64 = 0.01;
 const EDGE_ON_STEPS: i32 = 8;
 const NEAR_M: [f64; 4] = [0.013, 0.021, 0.032, 0.047];

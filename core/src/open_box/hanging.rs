@@ -127,6 +127,7 @@ fn scan_tuck(sight: &Sight, body: &FittedBody, k: usize, less_m: f64, model_m: f
     is_bent.then_some((more, ScannedTuck { tuck, flap_length_m }))
 }
 
+/// A crease before a flap's end bends by more.
 const BENT_RAD: f64 = 0.2;
 
 pub const TUCK_LESS_THAN_FLAP_M: f64 = 0.01;

@@ -22,15 +22,21 @@ DIGITS = 6
 """Of a number in a tree."""
 
 
+def require_learner() -> None:
+    """Raises ValueError without scikit-learn; asked before anything long is done."""
+    try:
+        import sklearn.ensemble  # noqa: F401
+    except ModuleNotFoundError as error:
+        raise ValueError(f"learning needs {error.name}, which is missing; pip install 'boxwright[learn]'") from None
+
+
 def fit_trees(examples: Sequence[tuple[dict[str, float], bool]], weights: dict[str, float]) -> list[Tree]:
     """Trees whose sum, added to that of the features times `weights`, tells what is right by its log odds.
 
     The same examples give the same trees. Raises ValueError without scikit-learn.
     """
-    try:
-        from sklearn.ensemble import GradientBoostingClassifier
-    except ModuleNotFoundError as error:
-        raise ValueError(f"learning needs {error.name}, which is missing; pip install 'boxwright[learn]'") from None
+    require_learner()
+    from sklearn.ensemble import GradientBoostingClassifier
 
     names = list(weights)
     boosted = GradientBoostingClassifier(

@@ -14,7 +14,7 @@ from boxwright import _core
 from boxwright.evaluation import Answer, BoxScore, LabelledFrame, SetEntry, read_entry, score_answer
 from boxwright.io.clouds import read_cloud
 from boxwright.io.labels import PointLabels
-from boxwright.learning.boosting import Tree, fit_trees
+from boxwright.learning.boosting import Tree, fit_trees, require_learner
 from boxwright.models import load_object_model
 from boxwright.parallel import ordered_map
 from boxwright.types.model import Object
@@ -92,8 +92,10 @@ def learn_judgement(
 ) -> LearnedJudgement:
     """Weights from labelled frames, with boxes and without; the same frames give the same weights.
 
-    Raises ValueError where a frame cannot be used, or where the frames hold no right box or no false one.
+    Raises ValueError where a frame cannot be used, where the frames hold no right box or no false one, and without
+    scikit-learn.
     """
+    require_learner()
     before = list(_seen(entries, None, jobs, lambda line: progress(f"unjudged: {line}")))
     first = _fitted(before, told_from=0.0)
     text = msgspec.json.encode({"box": first[0], "part": first[1]}).decode()
