@@ -26,29 +26,27 @@ pub fn scan_flaps(
     [peaks, columns]: [usize; 2],
 ) -> [Option<ScannedFlap>; 4] {
     std::array::from_fn(|k| {
-        let range = ScanRange {
-            angles_rad: FLAP_ANGLES_RAD,
-            longest_m: LONGEST_SHARE * body.edge_m(k + 1) + LONGER_M,
-            model_m,
-            peaks,
-            columns,
-            over_hidden: false,
-        };
+        let range = ScanRange { peaks, columns, ..flap_range(body, k, model_m) };
         scan(sight, &HingeLine::of_side(body, k), &range).filter(is_flap)
     })
 }
 
-/// The same, of those edges that are asked for, beyond what hides the flaps near their hinges.
+/// Of the flap on side `k`, as a fitted body is scanned.
+fn flap_range(body: &FittedBody, k: usize, model_m: f64) -> ScanRange {
+    let [peaks, columns] = FINE_SCAN;
+    let longest_m = LONGEST_SHARE * body.edge_m(k + 1) + LONGER_M;
+    ScanRange { angles_rad: FLAP_ANGLES_RAD, longest_m, model_m, peaks, columns, over_hidden: false }
+}
+
+/// The flaps on those edges that are asked for, looked for beyond what hides them near their hinges.
 pub fn scan_hidden_flaps(
     sight: &Sight,
     body: &FittedBody,
     model_m: f64,
     is_asked: [bool; 4],
 ) -> [Option<ScannedFlap>; 4] {
-    let [peaks, columns] = FINE_SCAN;
     std::array::from_fn(|k| {
-        let longest_m = LONGEST_SHARE * body.edge_m(k + 1) + LONGER_M;
-        let range = ScanRange { angles_rad: FLAP_ANGLES_RAD, longest_m, model_m, peaks, columns, over_hidden: true };
+        let range = ScanRange { over_hidden: true, ..flap_range(body, k, model_m) };
         let found = is_asked[k].then(|| scan(sight, &HingeLine::of_side(body, k), &range))?;
         found.filter(is_flap)
     })
