@@ -29,7 +29,7 @@ mod tests {
     use nalgebra::{DMatrix, Isometry3};
 
     use super::super::evidence::Evidence;
-    use super::super::surfaces::{Labels, Present};
+    use super::super::labels::{Labels, Present};
     use super::*;
     use crate::fit::{FittedBody, Parameters, Solution};
 

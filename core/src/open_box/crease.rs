@@ -4,8 +4,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::hanging::TUCK_LESS_THAN_FLAP_M;
+use super::labels::{Labels, Present};
 use super::sight::Sight;
-use super::surfaces::{Labels, Present};
 use crate::fit::{layout, FittedBody, Rim, Role};
 
 /// Readings of a section, at most.

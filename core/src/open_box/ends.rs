@@ -1,6 +1,6 @@
 use super::evidence::Sheet;
+use super::labels::Present;
 use super::sight::{Says, Sight};
-use super::surfaces::Present;
 use crate::fit::{FittedBody, Role};
 use crate::perception::EdgeKind;
 

@@ -6,6 +6,8 @@ use super::features::{self, Features};
 use super::flap_scan::ScannedFlap;
 use super::hanging::{scan_flaps, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
 use super::judgement::Judgement;
+use super::label::label;
+use super::labels::{roles, Labels, Present};
 use super::owners::Owners;
 use super::refit::refit;
 use super::settle::is_sunk;
@@ -13,7 +15,6 @@ use super::shells::Shell;
 use super::sight::Sight;
 use super::start::body_of;
 use super::sure::{drop_unsure, long_enough};
-use super::surfaces::{label, roles, Labels, Present};
 use crate::fit::{
     canonical_turn, check, layout, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role, SizeMatch,
     Solution,

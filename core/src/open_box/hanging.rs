@@ -3,8 +3,8 @@
 use super::evidence::Sheet;
 use super::flap_scan::{scan, ScanRange, ScannedFlap};
 use super::hinge_line::HingeLine;
+use super::labels::Present;
 use super::sight::Sight;
-use super::surfaces::Present;
 use crate::fit::{layout, FittedBody, Role};
 
 /// Pushed a little into the box, to hanging along its side.

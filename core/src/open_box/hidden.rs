@@ -1,9 +1,9 @@
 //! What the answer says of parts that were not seen: hidden or absent, and from where a hidden one would be seen.
 
 use super::grow::FoundBox;
+use super::labels::roles;
 use super::next_view::Surroundings;
 use super::sight::Sight;
-use super::surfaces::roles;
 use super::unseen::unseen_flap;
 use crate::fit::{layout, FittedBody, Role};
 use crate::free_space::PartState;

@@ -1,6 +1,6 @@
 //! Edges that a board may hang on.
 
-use super::sight::{Says, Sight};
+use super::sight::{Reading, Says, Sight};
 use crate::fit::{flap_end, layout, FittedBody, Rim};
 use crate::geometry::{Plane, Vec3};
 
@@ -16,6 +16,8 @@ pub struct HingeLine {
     pub up: Vec3,
     /// From the edge into the panel that it belongs to.
     pub parent: Vec3,
+    /// Square to that panel.
+    off_parent: Vec3,
     pub half_m: f64,
     /// The base's upper face; the support is level.
     base: Plane,
@@ -27,12 +29,14 @@ impl HingeLine {
         let rim = Rim::new(body, k);
         let turn = body.input_from_object.rotation;
         let (along, inward) = rim.directions();
+        let (along, parent) = (turn * along, -(turn * Vec3::z()));
         Self {
             middle: body.to_input(&rim.place(0.0, 0.0, 0.0)),
-            along: turn * along,
+            along,
             closed: turn * inward,
             up: turn * Vec3::z(),
-            parent: -(turn * Vec3::z()),
+            parent,
+            off_parent: parent.cross(&along),
             half_m: body.edge_m(k) / 2.0,
             base: base_plane(body),
         }
@@ -46,13 +50,15 @@ impl HingeLine {
         let (along, across) = rim.directions();
         let (sin, cos) = body.get(layout::flap(k) + layout::FLAP_ANGLE).sin_cos();
         let way = turn * (across * cos + Vec3::z() * sin);
+        let along = turn * along;
         Self {
             middle: body.to_input(&rim.place(body.get(layout::flap(k) + layout::FLAP_OFFSET), inward, above)),
-            along: turn * along,
+            along,
             closed: way,
             // A tuck flap's position grows against its flap's.
             up: turn * (across * sin - Vec3::z() * cos),
             parent: -way,
+            off_parent: along.cross(&way),
             half_m: body.get(layout::flap(k) + layout::FLAP_WIDTH) / 2.0
                 - body.get(layout::flap(k) + layout::FLAP_TAPER),
             base: base_plane(body),
@@ -62,22 +68,24 @@ impl HingeLine {
     /// What the camera says of a point of a board on the edge; a reading of the panel that the edge belongs to, of
     /// the base or of the support says nothing.
     pub fn ask(&self, sight: &Sight, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<Vec3>) {
-        let (says, reading) = sight.ask(point, normal, model_m);
-        let Some((reading, _)) = reading else { return (says, None) };
-        let from = reading - self.middle;
-        let off = self.parent.cross(&self.along).dot(&from).abs();
-        let on_parent = self.parent.dot(&from) > -0.002 && off < model_m + HALF_BOARD_M;
-        if says == Says::Met && (on_parent || self.is_ground(sight, &reading, model_m)) {
+        let (says, look) = sight.ask(point, normal, model_m);
+        let Some(look) = look else { return (says, None) };
+        let reading = look.at();
+        if says == Says::Met && (self.is_on_parent(&reading, model_m) || self.is_ground(sight, look, model_m)) {
             return (Says::Blank, None);
         }
         (says, Some(reading))
     }
 
-    fn is_ground(&self, sight: &Sight, reading: &Vec3, model_m: f64) -> bool {
-        let ray = reading - sight.eye;
-        let range = ray.norm();
-        let tolerance = sight.tolerance_m(range, ray.z / range, model_m);
-        reading.z.abs() < tolerance || self.base.height_of(reading).abs() < tolerance
+    fn is_on_parent(&self, reading: &Vec3, model_m: f64) -> bool {
+        let from = reading - self.middle;
+        self.parent.dot(&from) > -0.002 && self.off_parent.dot(&from).abs() < model_m + HALF_BOARD_M
+    }
+
+    fn is_ground(&self, sight: &Sight, look: &Reading, model_m: f64) -> bool {
+        let reading = look.at();
+        let tolerance = look.noise() * (reading.z - sight.eye.z).abs() + model_m;
+        reading.z.abs() < tolerance || self.base.height_of(&reading).abs() < tolerance
     }
 
     pub fn directions(&self, angle: f64) -> (Vec3, Vec3) {

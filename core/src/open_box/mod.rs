@@ -16,6 +16,8 @@ mod hidden;
 mod hinge_line;
 mod judgement;
 mod kind;
+mod label;
+mod labels;
 mod lean;
 mod lids;
 mod next_view;

@@ -2,9 +2,9 @@ use std::collections::BTreeMap;
 
 use super::ends::{ends, FAR};
 use super::evidence::Sheet;
+use super::labels::{Labels, Present};
 use super::settle::{lowest_m, settled, LEVEL_COS};
 use super::sight::Sight;
-use super::surfaces::{Labels, Present};
 use crate::cloud::CloudView;
 use crate::fit::{
     kept_length, priors, solve, FitSettings, FittedBody, NotFitted, OtherView, PartEnds, PartReadings, PartSegment,

@@ -1,7 +1,7 @@
 //! What is seen along a box's rim: of walls of which little else is seen it is what speaks for them.
 
+use super::labels::Present;
 use super::sight::{Says, Sight};
-use super::surfaces::Present;
 use crate::fit::{FittedBody, Rim};
 use crate::geometry::Vec3;
 

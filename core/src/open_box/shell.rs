@@ -69,15 +69,19 @@ impl Rays {
         RaysAlong { eye: of(&sight.eye), rays: self.to_reading.iter().map(ray).collect() }
     }
 
-    /// Looks at a box's shell; `turned` are the rays along its directions.
-    pub fn look(&self, sight: &Sight, proposal: &Proposal, turned: &RaysAlong) -> ShellLook {
+    /// Looks at a box's shell; `turned` are the rays along its directions. `None` of one that cannot come to `least`.
+    pub fn look(&self, sight: &Sight, proposal: &Proposal, turned: &RaysAlong, least: f64) -> Option<ShellLook> {
         let mut looked = ShellLook::default();
-        let Some([left, right, top, bottom]) = self.bounds(sight, proposal) else { return looked };
+        let [left, right, top, bottom] = self.bounds(sight, proposal)?;
         let eye = turned.eye;
         let [x, y] = proposal.spans;
         let slabs = [x, y, proposal.heights];
         let pixels = (STRIDE * STRIDE) as f64;
         for row in top..=bottom {
+            // Were all that is left on its walls.
+            if looked.score() + ((bottom + 1 - row) * (right + 1 - left)) as f64 * pixels < least {
+                return None;
+            }
             for column in left..=right {
                 let k = row * self.columns + column;
                 let (ray, inverse) = &turned.rays[k];
@@ -101,7 +105,7 @@ impl Rays {
                 }
             }
         }
-        looked
+        (looked.score() >= least).then_some(looked)
     }
 
     /// Of the box in the grid of rays: left, right, top, bottom, inclusive.

@@ -67,10 +67,8 @@ fn borne_out(sight: &Sight, rays: &Rays, proposals: &[Proposal]) -> Vec<Shell> {
     let along = rays.along(sight, first);
     let mut out = Vec::new();
     for proposal in proposals {
-        let looked = rays.look(sight, proposal, &along);
-        if looked.score() + OF_FLAPS * proposal.on_flaps <= LEAST_SCORE {
-            continue;
-        }
+        let least = LEAST_SCORE - OF_FLAPS * proposal.on_flaps;
+        let Some(looked) = rays.look(sight, proposal, &along, least) else { continue };
         let on_rims = rims::of_body(sight, &body_of(proposal));
         let shell = Shell { proposal: proposal.clone(), looked, on_rims, score: 0.0, flaps: [None; 4] };
         out.push(Shell { score: shell.of_walls() + OF_FLAPS * proposal.on_flaps, ..shell });
@@ -100,7 +98,7 @@ fn all_proposals(patches: &[Patch], edges: &[Vec3]) -> Vec<Proposal> {
     out
 }
 
-/// Pixels for a box more than against it.
+/// So many pixels for a box more than against it.
 pub const LEAST_SCORE: f64 = 300.0;
 const ALIKE_M: f64 = 0.009;
 

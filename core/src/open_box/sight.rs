@@ -19,6 +19,28 @@ pub enum Says {
     Outside,
 }
 
+/// A reading in the level frame with its noise, side by side in memory.
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(16))]
+pub struct Reading {
+    at: [f32; 3],
+    noise: f32,
+}
+
+impl Reading {
+    #[inline]
+    pub fn at(&self) -> Vec3 {
+        let [x, y, z] = self.at;
+        Vec3::new(f64::from(x), f64::from(y), f64::from(z))
+    }
+
+    /// So many standard deviations along its ray as a reading may lie off its surface, share of the range.
+    #[inline]
+    pub fn noise(&self) -> f64 {
+        f64::from(self.noise)
+    }
+}
+
 /// The depth image in the level frame: z up from the support, the camera above the origin. Metres.
 pub struct Sight<'a> {
     pub input_from_level: Isometry3<f64>,
@@ -30,6 +52,7 @@ pub struct Sight<'a> {
     /// Angle between neighbouring pixels, rad.
     pub pixel_rad: f64,
     place_from_level: Matrix3<f64>,
+    looks: Vec<Reading>,
     readings: &'a Readings<'a>,
 }
 
@@ -68,10 +91,18 @@ impl<'a> Sight<'a> {
         let (column, row) = (cloud.width as f64 / 2.0, cloud.height as f64 / 2.0);
         let ray = |x: f64, y: f64| (rays * Vec3::new(x, y, 1.0)).normalize();
         let step = ray(column, row).cross(&ray(column + 1.0, row)).norm();
+        let eye = level_from_input.transform_point(&projection.origin.into()).coords;
+        let points: Vec<[f32; 3]> = cloud.points.iter().map(place).collect();
+        let from = eye.cast::<f32>();
+        let look = |at: &[f32; 3]| {
+            let range = (nalgebra::Vector3::from(*at) - from).norm();
+            Reading { at: *at, noise: SIGMAS as f32 * readings.sigma_at_range_m(f64::from(range)) as f32 / range }
+        };
         Some(Self {
             input_from_level,
-            eye: level_from_input.transform_point(&projection.origin.into()).coords,
-            points: cloud.points.iter().map(place).collect(),
+            eye,
+            looks: points.iter().map(look).collect(),
+            points,
             width: cloud.width,
             height: cloud.height,
             pixel_rad: step,
@@ -85,12 +116,14 @@ impl<'a> Sight<'a> {
     }
 
     /// Column and row that see a point; `None` behind the camera.
+    #[inline]
     pub fn pixel(&self, point: &Vec3) -> Option<[f64; 2]> {
         let place = self.place_from_level * (point - self.eye);
         (place.z > 1e-3).then(|| [place.x / place.z, place.y / place.z])
     }
 
     /// The pixel that sees a point, where the image has it.
+    #[inline]
     pub fn index(&self, point: &Vec3) -> Option<usize> {
         let [x, y] = self.pixel(point)?;
         // Half a pixel further, so that the whole part is the nearest.
@@ -100,8 +133,13 @@ impl<'a> Sight<'a> {
     }
 
     pub fn reading(&self, index: usize) -> Option<Vec3> {
-        let [x, y, z] = self.points[index];
-        x.is_finite().then(|| Vec3::new(f64::from(x), f64::from(y), f64::from(z)))
+        Some(self.look(index)?.at())
+    }
+
+    /// A reading with its noise.
+    #[inline]
+    pub fn look(&self, index: usize) -> Option<&Reading> {
+        Some(&self.looks[index]).filter(|look| look.at[0].is_finite())
     }
 
     /// Standard deviation of a reading along its ray, metres.
@@ -109,30 +147,22 @@ impl<'a> Sight<'a> {
         self.readings.sigma_at_range_m(range_m)
     }
 
-    /// How far off a surface under `cos` to the ray a reading may lie that is on it, of a model known within `model_m`.
-    pub fn tolerance_m(&self, range_m: f64, cos: f64, model_m: f64) -> f64 {
-        SIGMAS * self.sigma_m(range_m) * cos.abs() + model_m
-    }
-
-    /// What the camera says of a point of a surface with that normal (either way round); with the reading and its distance
-    /// off the surface towards the camera where it has one.
-    pub fn ask(&self, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<(Vec3, f64)>) {
+    /// What the camera says of a point of a surface with that normal (either way round), of a model known within `model_m`; with the
+    /// reading where it has one.
+    pub fn ask(&self, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<&Reading>) {
         let Some(index) = self.index(point) else { return (Says::Outside, None) };
-        let Some(reading) = self.reading(index) else { return (Says::Blank, None) };
-        let ray = point - self.eye;
-        let range = ray.norm();
-        let toward = -normal.dot(&ray).signum();
-        let cos = normal.dot(&ray) / range;
-        let off = toward * normal.dot(&(reading - point));
-        let tolerance = self.tolerance_m(range, cos, model_m);
-        let says = if off < -tolerance {
-            Says::Through
-        } else if off > tolerance {
-            Says::Hidden
-        } else {
+        let Some(look) = self.look(index) else { return (Says::Blank, None) };
+        let along = normal.dot(&(point - self.eye));
+        let off = normal.dot(&(look.at() - point));
+        let tolerance = look.noise() * along.abs() + model_m;
+        let says = if off.abs() <= tolerance {
             Says::Met
+        } else if (off > 0.0) == (along > 0.0) {
+            Says::Through
+        } else {
+            Says::Hidden
         };
-        (says, Some((reading, off)))
+        (says, Some(look))
     }
 
     /// Pixels that a piece of surface of that area fills.

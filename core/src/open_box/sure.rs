@@ -1,8 +1,8 @@
 //! Which parts of a fitted body are sure enough to be told.
 
+use super::labels::{Labels, Present};
 use super::lean::lean;
 use super::sight::Sight;
-use super::surfaces::{Labels, Present};
 use crate::fit::{layout, FittedBody, Role};
 
 /// Readings of other surfaces lean more than this off the panel that they were given to: the tangent.

@@ -1,106 +1,13 @@
-//! Which panel of a body each reading lies on.
+//! The faces of a body's panels, as readings lie on them.
 
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Rim, Role};
 use crate::geometry::{Plane, Vec3};
 
-/// The parts of a body that readings are given to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Present {
-    pub flaps: [bool; 4],
-    pub tucks: [bool; 4],
-}
-
-impl Present {
-    /// Of the same box with side `by` as side 0.
-    pub fn turned(&self, by: usize) -> Self {
-        let turn = |of: &[bool; 4]| std::array::from_fn(|k| of[(k + by) % 4]);
-        Self { flaps: turn(&self.flaps), tucks: turn(&self.tucks) }
-    }
-}
-
-/// The readings of each part of a box, in the image's order.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Labels {
-    pub parts: Vec<(Role, Vec<u32>)>,
-    /// Every so many columns and rows were asked.
-    pub stride: usize,
-}
-
-impl Labels {
-    pub fn of(&self, role: Role) -> &[u32] {
-        self.parts.iter().find(|(r, _)| *r == role).map_or(&[], |(_, points)| points)
-    }
-}
-
-impl Labels {
-    /// Readings of the whole image that a part's stand for.
-    pub fn count(&self, points: &[u32]) -> usize {
-        points.len() * self.stride * self.stride
-    }
-
-    pub fn clear(&mut self, role: Role) {
-        self.parts.iter_mut().filter(|(r, _)| *r == role).for_each(|(_, points)| points.clear());
-    }
-}
-
-/// Roles in the order of places.
-pub fn roles(present: &Present) -> Vec<Role> {
-    let mut out = vec![Role::Base];
-    out.extend((0..4).map(Role::Side));
-    out.extend((0..4).filter(|&k| present.flaps[k]).map(Role::Flap));
-    out.extend((0..4).filter(|&k| present.tucks[k]).map(Role::Tuck));
-    out
-}
-
 /// How far beyond its ends a panel still takes readings: edges are ragged, ends not yet known.
 const BEYOND_M: f64 = 0.006;
 /// Walls end, at the rim and where they meet, by this much.
 const WALL_BEYOND_M: f64 = 0.004;
-
-/// Every reading near the body, given to the panel whose face it is nearest to, in units of what it may lie off.
-///
-/// Of every `stride`-th column and row.
-pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, stride: usize) -> Labels {
-    let roles = roles(present);
-    let mut parts: Vec<(Role, Vec<u32>)> = roles.iter().map(|role| (*role, Vec::new())).collect();
-    let Some([left, right, top, bottom]) = bounds(sight, body, present) else { return Labels { parts, stride } };
-    let panels: Vec<Surface> = roles.iter().map(|&role| Surface::new(sight, body, role)).collect();
-    let (low, high) = object_bounds(body, present);
-    let inverse = body.input_from_object.inverse();
-    let (turn, shift) = (inverse.rotation.to_rotation_matrix(), inverse.translation.vector);
-    for row in (top..=bottom).step_by(stride) {
-        for column in (left..=right).step_by(stride) {
-            let index = row * sight.width + column;
-            let Some(point) = sight.reading(index) else { continue };
-            let q = turn * point + shift;
-            if (0..3).any(|a| q[a] < low[a] || q[a] > high[a]) {
-                continue;
-            }
-            let ray = point - sight.eye;
-            let range = ray.norm();
-            let sigma3 = 3.0 * sight.sigma_m(range) / range;
-            let most = sigma3 * range + model_m;
-            // The support takes what it is nearest to, but for the base upon it.
-            let on_support = point.z.abs() / (sigma3 * ray.z.abs() + model_m);
-            let mut best = (on_support.min(1.0), usize::MAX);
-            for (number, panel) in panels.iter().enumerate() {
-                if panel.is_far(&q, most) {
-                    continue;
-                }
-                let Some((off, reach)) = panel.off(&q, &ray) else { continue };
-                let share = off.abs() / (sigma3 * reach + model_m);
-                if share < best.0 || (panel.role == Role::Base && share < 1.0 && best.1 == usize::MAX) {
-                    best = (share, number);
-                }
-            }
-            if best.1 != usize::MAX {
-                parts[best.1].1.push(index as u32);
-            }
-        }
-    }
-    Labels { parts, stride }
-}
 
 /// A panel's face that the camera sees, and its ends.
 pub struct Surface {
@@ -125,7 +32,6 @@ pub struct Surface {
     curl: f64,
     /// Of a tuck flap: its hinge in the rim's frame.
     from: [f64; 2],
-    /// The flat panel's plane in the object's frame, and how far off it the face may lie.
     plane: Plane,
     slack_m: f64,
 }
@@ -213,13 +119,17 @@ impl Surface {
         Some([at.along, away, off])
     }
 
-    /// Whether a point of the object's frame lies further than `most` off the face, whatever its ends.
-    fn is_far(&self, q: &Vec3, most: f64) -> bool {
-        self.plane.height_of(q).abs() > most + self.slack_m
+    /// The flat panel's plane in the object's frame, and how far off it the face may lie, metres.
+    pub fn plane(&self) -> (Plane, f64) {
+        (self.plane, self.slack_m)
+    }
+
+    pub fn role(&self) -> Role {
+        self.role
     }
 
     /// How far off the face a point of the object's frame lies, and the ray's share along the normal; `None` beyond its ends.
-    fn off(&self, q: &Vec3, ray: &Vec3) -> Option<(f64, f64)> {
+    pub fn off(&self, q: &Vec3, ray: &Vec3) -> Option<(f64, f64)> {
         let off = match self.role {
             Role::Base => {
                 let inside = self.rims.iter().all(|rim| rim.locate(*q).inward > self.half_board_m);
@@ -251,45 +161,4 @@ impl Surface {
         };
         Some((off, ray.dot(&self.normal).abs()))
     }
-}
-
-/// Lowest and highest coordinates that a body reaches in its own frame.
-fn object_bounds(body: &FittedBody, present: &Present) -> (Vec3, Vec3) {
-    let (l, w, h) = (body.get(layout::LENGTH), body.get(layout::WIDTH), body.get(layout::HEIGHT));
-    let rack = body.get(layout::RACK).tan().abs() * w / 2.0;
-    let margin = 0.02;
-    let mut low = Vec3::new(-l / 2.0 - rack - margin, -w / 2.0 - margin, -margin);
-    let mut high = Vec3::new(l / 2.0 + rack + margin, w / 2.0 + margin, h + margin);
-    for k in (0..4).filter(|&k| present.flaps[k]) {
-        let tuck = if present.tucks[k] { body.get(layout::tuck(k) + layout::TUCK_LENGTH) } else { 0.0 };
-        let reach = body.get(layout::flap(k) + layout::FLAP_LENGTH) + tuck + margin;
-        let rim = Rim::new(body, k);
-        let (along, inward) = rim.directions();
-        let angle = body.get(layout::flap(k) + layout::FLAP_ANGLE);
-        let free = (inward * angle.cos() + Vec3::z() * angle.sin()) * reach;
-        let aside = along * (body.get(layout::flap(k) + layout::FLAP_WIDTH) / 2.0 + margin);
-        for side in [-1.0, 1.0] {
-            let corner = rim.place(0.0, 0.0, 0.0) + free + aside * side;
-            let bow = 0.03 + tuck;
-            low = low.zip_map(&(corner - Vec3::repeat(bow)), f64::min);
-            high = high.zip_map(&(corner + Vec3::repeat(bow)), f64::max);
-        }
-    }
-    (low, high)
-}
-
-/// Of the body in the image: left, right, top, bottom, inclusive.
-fn bounds(sight: &Sight, body: &FittedBody, present: &Present) -> Option<[usize; 4]> {
-    let (low, high) = object_bounds(body, present);
-    let mut bounds = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
-    for corner in 0..8 {
-        let pick = |a: usize| if corner >> a & 1 == 0 { low[a] } else { high[a] };
-        let point = body.to_input(&Vec3::new(pick(0), pick(1), pick(2)));
-        let [u, v] = sight.pixel(&point)?;
-        bounds = [bounds[0].min(u), bounds[1].max(u), bounds[2].min(v), bounds[3].max(v)];
-    }
-    let cell = |at: f64, count: usize| at.clamp(0.0, count as f64 - 1.0) as usize;
-    let (width, height) = (sight.width, sight.height);
-    let is_seen = bounds[1] >= 0.0 && bounds[0] < width as f64 && bounds[3] >= 0.0 && bounds[2] < height as f64;
-    is_seen.then(|| [cell(bounds[0], width), cell(bounds[1], width), cell(bounds[2], height), cell(bounds[3], height)])
 }

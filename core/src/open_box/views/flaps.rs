@@ -2,8 +2,8 @@
 
 use super::super::evidence::look_from_all;
 use super::super::hanging::{is_there, scan_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
+use super::super::labels::Present;
 use super::super::sight::Sight;
-use super::super::surfaces::Present;
 use crate::fit::{layout, FittedBody, Role};
 
 /// A guess beats what a body has by this much and more pixels.

@@ -6,9 +6,9 @@ use super::super::evidence::Evidence;
 use super::super::features::{self, Features};
 use super::super::grow::{weigh, FoundBox};
 use super::super::judgement::{probability, Judgement};
+use super::super::labels::{roles, Labels, Present};
 use super::super::owners::Owners;
 use super::super::sight::Sight;
-use super::super::surfaces::{roles, Labels, Present};
 use crate::fit::{Role, SizeMatch, Solution};
 
 /// All views, in one level frame.

@@ -3,10 +3,11 @@
 use nalgebra::Isometry3;
 
 use super::super::grow::{competing, sound, COARSE_M, FINE_M, ONCE_FITTED_M};
+use super::super::label::label;
+use super::super::labels::{Labels, Present};
 use super::super::refit::refit_views;
 use super::super::sight::Sight;
 use super::super::sure::drop_unsure;
-use super::super::surfaces::{label, Labels, Present};
 use super::flaps::{best_flaps, best_tucks};
 use super::gather::Views;
 use super::matching::Sighting;

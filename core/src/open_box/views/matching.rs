@@ -2,7 +2,7 @@ use nalgebra::Isometry3;
 
 use super::super::grow::FoundBox;
 use super::super::judgement::{probability, Judgement};
-use super::super::surfaces::Present;
+use super::super::labels::Present;
 use crate::fit::{layout, FittedBody, Rim};
 use crate::geometry::Vec3;
 

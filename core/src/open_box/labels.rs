@@ -1,0 +1,52 @@
+//! Which parts of a body have readings, and which.
+
+use crate::fit::Role;
+
+/// The parts of a body that readings are given to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Present {
+    pub flaps: [bool; 4],
+    pub tucks: [bool; 4],
+}
+
+impl Present {
+    /// Of the same box with side `by` as side 0.
+    pub fn turned(&self, by: usize) -> Self {
+        let turn = |of: &[bool; 4]| std::array::from_fn(|k| of[(k + by) % 4]);
+        Self { flaps: turn(&self.flaps), tucks: turn(&self.tucks) }
+    }
+}
+
+/// The readings of each part of a box, in the image's order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Labels {
+    pub parts: Vec<(Role, Vec<u32>)>,
+    /// Every so many columns and rows were asked.
+    pub stride: usize,
+}
+
+impl Labels {
+    pub fn of(&self, role: Role) -> &[u32] {
+        self.parts.iter().find(|(r, _)| *r == role).map_or(&[], |(_, points)| points)
+    }
+}
+
+impl Labels {
+    /// Readings of the whole image that a part's stand for.
+    pub fn count(&self, points: &[u32]) -> usize {
+        points.len() * self.stride * self.stride
+    }
+
+    pub fn clear(&mut self, role: Role) {
+        self.parts.iter_mut().filter(|(r, _)| *r == role).for_each(|(_, points)| points.clear());
+    }
+}
+
+/// Roles in the order of places.
+pub fn roles(present: &Present) -> Vec<Role> {
+    let mut out = vec![Role::Base];
+    out.extend((0..4).map(Role::Side));
+    out.extend((0..4).filter(|&k| present.flaps[k]).map(Role::Flap));
+    out.extend((0..4).filter(|&k| present.tucks[k]).map(Role::Tuck));
+    out
+}
