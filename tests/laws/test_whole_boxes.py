@@ -105,6 +105,21 @@ def test_a_flap_is_found_of_which_only_the_tip_is_seen() -> None:
     assert min(errors) < 6.0
 
 
+def test_a_flap_is_found_whose_hinge_is_hidden_and_which_no_line_of_sight_runs_along() -> None:
+    """On the line on which boards from this hinge are seen edge-on all is met; of the flap a corner is seen, 10 cm further."""
+    frame = make_frame("small", 501, 126)
+    found = [_positions_deg(one, "flap") for one in boxwright.infer(cloud_of(frame)).model.objects]
+    near_two = [one for one in found if len(one) == 2 and np.allclose(one, [85.0, 89.0], atol=5.0)]
+    assert len(near_two) == 1, found
+
+
+def test_a_box_is_finished_anew_from_where_it_has_come_to() -> None:
+    """Finished once this box, which shows two flaps and a tuck flap, was not told at all."""
+    (found,) = boxwright.infer(cloud_of(make_frame("cake", 501, 178))).model.objects
+    assert _positions_deg(found, "flap") == pytest.approx([57.0, 79.0], abs=6.0)
+    assert _positions_deg(found, "tuck") == pytest.approx([-7.0], abs=6.0)
+
+
 @pytest.mark.parametrize(("category", "index", "true_deg"), [("cake", 292, 46.0), ("carton", 141, 60.0)])
 def test_a_tuck_flap_is_found_where_its_flap_was_followed_beyond_the_crease(
     category: str, index: int, true_deg: float

@@ -1,9 +1,10 @@
 use rayon::prelude::*;
 
-use super::choose::{choose, Chosen};
+use super::choose::choose;
 use super::features;
+use super::finish::Finishing;
 use super::flap_scan::ScannedFlap;
-use super::grow::{finish, grow, FoundBox, COARSE_M};
+use super::grow::{grow, FoundBox, COARSE_M};
 use super::hanging::{scan_flaps, COARSE_SCAN};
 use super::judgement::{probability, Judgement};
 use super::owners::Owners;
@@ -11,7 +12,7 @@ use super::refused::{Refusal, Refused};
 use super::shells::{outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
-use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, KnownSize, NotFitted};
+use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, KnownSize};
 use crate::perception::Scene;
 
 /// Of proposals that lie upon each other so many are fitted.
@@ -48,8 +49,8 @@ pub fn find(
     let found = rivals.into_par_iter().filter_map(|shell| grow(sight, shell, settings)).map(weighed).collect();
     let chosen = choose(found, sight.width);
     let bodies: Vec<_> = chosen.iter().map(|chosen| chosen.one.solution.body.clone()).collect();
-    let end = |chosen: Chosen| end(sight, &owners, chosen, sizes, settings, judgement);
-    let ended: Vec<_> = chosen.into_par_iter().map(end).collect();
+    let finishing = Finishing { sight, owners: &owners, sizes, settings, judgement };
+    let ended: Vec<_> = chosen.into_par_iter().map(|chosen| finishing.best(chosen)).collect();
     let (mut out, mut refused) = (Vec::new(), Vec::new());
     for (one, body) in ended.into_iter().zip(bodies) {
         match one {
@@ -58,28 +59,6 @@ pub fn find(
         }
     }
     (out, refused)
-}
-
-/// The box as it is once fitted to all of its readings; with a judgement, that of those that rank nearly alike which then
-/// holds most.
-fn end(
-    sight: &Sight,
-    owners: &Owners,
-    chosen: Chosen,
-    sizes: &[KnownSize],
-    settings: &FitSettings,
-    judgement: Option<&Judgement>,
-) -> Result<FoundBox, NotFitted> {
-    let first = finish(sight, owners, chosen.one, sizes, settings);
-    let Some(judgement) = judgement else { return first };
-    let rank =
-        |one: &FoundBox| one.score * share_of_score(one.size.as_ref()) * probability(judgement.of_box(&one.features).0);
-    let others = chosen.instead.into_iter().filter_map(|one| finish(sight, owners, one, sizes, settings).ok());
-    // Of those that rank alike the first.
-    others.fold(first, |best, one| match best {
-        Ok(best) if rank(&best) >= rank(&one) => Ok(best),
-        _ => Ok(one),
-    })
 }
 
 /// Without those that lie upon enough better ones.

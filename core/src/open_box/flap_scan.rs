@@ -64,6 +64,8 @@ impl ScanRange {
 }
 
 const STEP_RAD: f64 = 0.06;
+/// Of angles that lie this near to each other the best is followed.
+const SAME_RAD: f64 = 0.09;
 const FAR_STEP_RAD: f64 = 0.03;
 /// Where a board is seen from its edge, and to either side so many of them.
 const EDGE_ON_STEP_RAD: f64 = 0.01;
@@ -91,11 +93,25 @@ pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<Scann
     };
     let mut peaks: Vec<usize> = (0..angles.len()).filter(|&i| is_peak(i)).collect();
     peaks.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
-    let followed = peaks.iter().take(range.peaks).filter_map(|&i| follow(sight, hinge, angles[i], range));
+    let taken = apart(peaks.into_iter().map(|i| angles[i]), range);
+    let followed = taken.into_iter().filter_map(|angle| follow(sight, hinge, angle, range));
     followed.filter(|flap| flap.score() > 0.0).fold(None, |best: Option<ScannedFlap>, flap| match best {
         Some(best) if best.score() >= flap.score() => Some(best),
         _ => Some(flap),
     })
+}
+
+/// The first of these angles, so many as are followed; of those that lie side by side, as they do where a board is seen from its
+/// edge, one.
+fn apart(angles: impl Iterator<Item = f64>, range: &ScanRange) -> Vec<f64> {
+    let mut out: Vec<f64> = Vec::new();
+    for angle in angles {
+        let is_new = |other: &f64| !range.over_hidden || (angle - other).abs() > SAME_RAD;
+        if out.len() < range.peaks && out.iter().all(is_new) {
+            out.push(angle);
+        }
+    }
+    out
 }
 
 /// The angles that are asked, ascending; where something is missed, more of those at which a board is seen from its edge: a little
@@ -120,6 +136,11 @@ fn columns(hinge: &HingeLine, count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |i| half * ((2 * i + 1) as f64 / count as f64 - 1.0))
 }
 
+/// All of a board that is seen from its edge lies on one line of the image, and what is met there may be its hinge alone. Where
+/// hinges are hidden readings count by how much of the image they stand for, as seen so far from the hinge, and at least by so much.
+const SEEN_AT_M: f64 = 0.03;
+const LEAST_SEEN: f64 = 0.06;
+
 fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -> f64 {
     let (way, normal) = hinge.directions(angle);
     let mut score = 0.0;
@@ -133,7 +154,11 @@ fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -
             };
         }
     }
-    score
+    if !range.over_hidden {
+        return score;
+    }
+    let ray = hinge.middle + way * SEEN_AT_M - sight.eye;
+    score * (normal.dot(&ray).abs() / ray.norm()).max(LEAST_SEEN)
 }
 
 /// A board followed from the hinge outwards, its angle and curl fitted to what is met on the way.

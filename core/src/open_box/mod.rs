@@ -9,6 +9,7 @@ mod ends;
 mod evidence;
 mod features;
 mod find;
+mod finish;
 mod flap_scan;
 mod grow;
 mod hanging;

@@ -1,0 +1,146 @@
+//! Boxes that have won, fitted to all of their readings, again and again while more is held.
+
+use super::choose::Chosen;
+use super::crease::with_creases;
+use super::evidence::{Evidence, Sheet};
+use super::features;
+use super::flap_scan::ScannedFlap;
+use super::grow::{competing, sound, weigh, FoundBox, COARSE_STRIDE, FINE_M};
+use super::hanging::{scan_flaps, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
+use super::judgement::{probability, Judgement};
+use super::label::label;
+use super::labels::{Labels, Present};
+use super::owners::Owners;
+use super::refit::refit;
+use super::sight::Sight;
+use super::sure::drop_unsure;
+use crate::fit::{canonical_turn, share_of_score, with_known_size, FitSettings, KnownSize, NotFitted, Role, Solution};
+
+/// What boxes are finished by.
+pub struct Finishing<'a> {
+    pub sight: &'a Sight<'a>,
+    pub owners: &'a Owners,
+    pub sizes: &'a [KnownSize],
+    pub settings: &'a FitSettings,
+    pub judgement: Option<&'a Judgement>,
+}
+
+/// A finished box is finished anew, from what it has come to, at most so often: what it now is shows flaps that it did not.
+const ROUNDS: usize = 2;
+
+impl Finishing<'_> {
+    /// The box that was chosen, or of those that could take its place the one that holds more once all are finished.
+    ///
+    /// # Errors
+    /// As of the fit of the box that was chosen, where none takes its place.
+    pub fn best(&self, chosen: Chosen) -> Result<FoundBox, NotFitted> {
+        let first = self.finish(chosen.one);
+        let others = chosen.instead.into_iter().filter_map(|one| self.finish(one).ok());
+        let best = others.fold(first, |best, one| match best {
+            Ok(best) if self.rank(&best) >= self.rank(&one) => Ok(best),
+            _ => Ok(one),
+        });
+        best.map(|best| self.while_better(best))
+    }
+
+    fn while_better(&self, first: FoundBox) -> FoundBox {
+        let mut best = first;
+        for _ in 0..ROUNDS {
+            match self.finish(best.clone()) {
+                Ok(one) if self.rank(&one) > self.rank(&best) => best = one,
+                _ => break,
+            }
+        }
+        best
+    }
+
+    /// What it holds, times the probability that it is a box, and one of a known size.
+    fn rank(&self, one: &FoundBox) -> f64 {
+        let judged = self.judgement.map_or(1.0, |judgement| probability(judgement.of_box(&one.features).0));
+        one.score * share_of_score(one.size.as_ref()) * judged
+    }
+
+    /// With its tuck flaps, fitted to all of its readings; it takes the size that it matches, if any.
+    fn finish(&self, found: FoundBox) -> Result<FoundBox, NotFitted> {
+        let (sight, settings) = (self.sight, self.settings);
+        let (solution, present, of_fewer) = fit_to_all(sight, &found, settings)?;
+        let found = look_again(sight, weigh(sight, solution, present, 1), settings);
+        let (solution, size) = with_known_size(found.solution.clone(), self.sizes, settings.seen_scale.dimension);
+        sound(&solution.body)?;
+        let found = if size.is_some() { weigh(sight, solution, found.present, 1) } else { found };
+        let mut out = FoundBox { size, of_fewer, ..found };
+        out.features = features::of_box(sight, self.owners, &out);
+        let of = |(role, evidence): &(Role, Evidence)| {
+            let points = out.labels.of(*role);
+            (!points.is_empty()).then(|| (*role, features::of_part(sight, self.owners, &out, *role, points, evidence)))
+        };
+        out.part_features = out.evidence.iter().filter_map(of).collect();
+        Ok(out)
+    }
+}
+
+/// Fitted to all its readings; where they lead to no body, to fewer, as before, and why.
+fn fit_to_all(
+    sight: &Sight,
+    found: &FoundBox,
+    settings: &FitSettings,
+) -> Result<(Solution, Present, Option<NotFitted>), NotFitted> {
+    let turn = canonical_turn(&found.solution.body, Some(sight.eye));
+    let (body, present) = (found.solution.body.turned(turn), found.present.turned(turn));
+    let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
+    let mut labels = label(sight, &body, &present, FINE_M, 1);
+    let (body, present) = match with_creases(sight, &body, &present, &labels) {
+        Some((body, present)) => {
+            labels = label(sight, &body, &present, FINE_M, 1);
+            (body, present)
+        }
+        None => (body, present),
+    };
+    drop_unsure(sight, &body, &mut labels);
+    let fit = |labels: &Labels, settings: &FitSettings| {
+        let solution = refit(sight, &body, &present, labels, settings)?;
+        sound(&solution.body).map(|()| solution)
+    };
+    fit(&labels, settings).map(|solution| (solution, present, None)).or_else(|why| {
+        let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
+        drop_unsure(sight, &body, &mut labels);
+        Ok((fit(&labels, &competing(settings))?, present, Some(why)))
+    })
+}
+
+/// A flap that was missed, or fitted where little lies, is taken from a scan of its edge where now more is met; one that is hidden
+/// near its edge from one that looks further.
+fn look_again(sight: &Sight, found: FoundBox, settings: &FitSettings) -> FoundBox {
+    let (body, present) = (&found.solution.body, found.present);
+    let mut flaps = scan_flaps(sight, body, FINE_M, FINE_SCAN);
+    let fitted_score = |k: usize| {
+        let evidence = Sheet::new(body, Role::Flap(k), &sight.eye).look(sight, FINE_M);
+        evidence.met - 2.0 * evidence.through
+    };
+    for (k, flap) in flaps.iter_mut().enumerate() {
+        *flap = flap.filter(|flap| !present.flaps[k] || flap.score() > BETTER * fitted_score(k).max(0.0) + BETTER_PX);
+    }
+    let found = taken_up(sight, found, &flaps, settings);
+    let is_missed = found.present.flaps.map(|is_there| !is_there);
+    let hidden = scan_hidden_flaps(sight, &found.solution.body, FINE_M, is_missed);
+    taken_up(sight, found, &hidden, settings)
+}
+
+/// Fitted with these flaps too, where more is held then: a flap fitted to what is none costs more than it holds.
+fn taken_up(sight: &Sight, found: FoundBox, flaps: &[Option<ScannedFlap>; 4], settings: &FitSettings) -> FoundBox {
+    if flaps.iter().all(Option::is_none) {
+        return found;
+    }
+    let present = found.present;
+    let (body, scanned) = with_flaps(&found.solution.body, flaps);
+    let both = Present { flaps: std::array::from_fn(|k| present.flaps[k] || scanned.flaps[k]), ..present };
+    let mut labels = label(sight, &body, &both, FINE_M, 1);
+    drop_unsure(sight, &body, &mut labels);
+    let again = refit(sight, &body, &both, &labels, settings).ok().filter(|again| sound(&again.body).is_ok());
+    let again = again.map(|again| weigh(sight, again, both, 1));
+    again.filter(|again| again.score > found.score).unwrap_or(found)
+}
+
+/// A scan has this much more than the fit.
+const BETTER: f64 = 1.25;
+const BETTER_PX: f64 = 100.0;
