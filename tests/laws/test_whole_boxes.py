@@ -106,7 +106,7 @@ def test_a_flap_is_found_of_which_only_the_tip_is_seen() -> None:
 
 
 def test_a_flap_is_found_whose_hinge_is_hidden_and_which_no_line_of_sight_runs_along() -> None:
-    """On the line on which boards from this hinge are seen edge-on all is met; of the flap a corner is seen, 10 cm further."""
+    """All is met on the line on which boards from this hinge are seen edge-on, and of the flap a corner, 10 cm off."""
     frame = make_frame("small", 501, 126)
     found = [_positions_deg(one, "flap") for one in boxwright.infer(cloud_of(frame)).model.objects]
     near_two = [one for one in found if len(one) == 2 and np.allclose(one, [85.0, 89.0], atol=5.0)]
