@@ -1,6 +1,6 @@
 """From a VGA frame to its model on one thread: time by stage, peak memory, and reading beside numpy's.
 
-Run: python benchmarks/bench.py [--frames N] [--repeats R]
+Run: python benchmarks/bench.py [--frames N] [--repeats R] [--method fitted|exact|paper]
 Each frame is read and inferred R times; of its R runs the one with least CPU time counts, then medians are taken over
 the frames. Peak memory is that of a fresh process that answers one frame and ends. Frames are simulated, seed stated.
 """
@@ -32,13 +32,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--frames", type=int, default=36, help="simulated frames, the six categories in turn")
     parser.add_argument("--repeats", type=int, default=3, help="runs of each frame")
+    parser.add_argument("--method", choices=("fitted", "exact", "paper"), default="fitted", help="of inference")
     wanted = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         clouds = make_clouds(Path(folder), wanted.frames)
-        runs = runs_of(clouds, wanted.repeats)
-        peaks = [peak_of(cloud) for cloud in clouds[:PEAK_FRAMES]]
+        runs = runs_of(clouds, wanted.repeats, wanted.method)
+        peaks = [peak_of(cloud, wanted.method) for cloud in clouds[:PEAK_FRAMES]]
         peers = [(peer.name, peer.measure(clouds[:PEAK_FRAMES])) for peer in PEERS]
-    print_machine(len(clouds), wanted.repeats)
+    print_machine(len(clouds), wanted.repeats, wanted.method)
     print_stages(runs)
     print_peaks(peaks)
     print_help_time()
@@ -52,14 +53,14 @@ def make_clouds(folder: Path, count: int) -> list[Path]:
     return [folder / f"{name}.pcd" for name in write_set(folder, count, SEED, CATEGORIES)]
 
 
-def runs_of(clouds: list[Path], repeats: int) -> list[dict[str, float]]:
+def runs_of(clouds: list[Path], repeats: int, method: str) -> list[dict[str, float]]:
     """Milliseconds by stage of each frame, from one process on one thread, its first frame run once beforehand."""
-    return _child("times", str(repeats), *map(str, clouds))
+    return _child("times", method, str(repeats), *map(str, clouds))
 
 
-def peak_of(cloud: Path) -> float:
+def peak_of(cloud: Path, method: str) -> float:
     """Peak resident memory in MB of a fresh process from start to answer."""
-    return float(_child("peak", str(cloud))[0]["peak_mb"])
+    return float(_child("peak", method, str(cloud))[0]["peak_mb"])
 
 
 def _child(*arguments: str) -> list[dict[str, float]]:
@@ -70,17 +71,17 @@ def _child(*arguments: str) -> list[dict[str, float]]:
     return [json.loads(line) for line in done.stdout.splitlines()]
 
 
-def print_machine(frames: int, repeats: int) -> None:
+def print_machine(frames: int, repeats: int, method: str) -> None:
     system = f"{platform.system()} {platform.machine()}"
     print(f"{cpu_name()}, {os.cpu_count()} cores, {system}, Python {platform.python_version()}")
-    print(f"{frames} simulated frames 640 x 480, seed {SEED}; one thread; best of {repeats} runs each; method paper")
+    print(f"{frames} simulated frames 640 x 480, seed {SEED}; one thread; best of {repeats} runs each; method {method}")
 
 
 def print_stages(runs: list[dict[str, float]]) -> None:
-    print(f"\n{'stage':<28}{'median ms':>12}{'p90 ms':>12}{'max ms':>12}")
+    print(f"\n{'stage':<28}{'median ms':>12}{'p90 ms':>12}{'p99 ms':>12}")
     for stage in runs[0]:
-        times = np.array([run[stage] for run in runs])
-        print(f"{stage:<28}{np.median(times):>12.1f}{np.percentile(times, 90):>12.1f}{times.max():>12.1f}")
+        times = np.percentile([run[stage] for run in runs], [50, 90, 99])
+        print(f"{stage:<28}" + "".join(f"{value:>12.1f}" for value in times))
 
 
 def print_peaks(peaks: list[float]) -> None:

@@ -13,6 +13,7 @@ use super::shells::{outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
 use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, KnownSize};
+use crate::perception::clock::Clock;
 use crate::perception::Scene;
 
 /// Of proposals that lie upon each other so many are fitted.
@@ -20,8 +21,17 @@ const RIVALS_FITTED: usize = 8;
 /// How well a proposal's lengths are known.
 const PROPOSED_SIGMA_M: f64 = 0.01;
 
-/// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings. And those that were
-/// borne out but whose fit did not end in a box.
+/// What was found in one frame.
+#[derive(Debug)]
+pub struct Found {
+    pub boxes: Vec<FoundBox>,
+    /// Borne out, but their fit did not end in a box.
+    pub refused: Vec<Refused>,
+    /// Time by the wall clock, in order.
+    pub stage_seconds: Vec<(&'static str, f64)>,
+}
+
+/// The boxes that the segments propose and the depth image bears out, best first; none takes another's readings.
 ///
 /// Of rivals those that have one of the given `sizes` win.
 pub fn find(
@@ -30,9 +40,11 @@ pub fn find(
     sizes: &[KnownSize],
     settings: &FitSettings,
     judgement: Option<&Judgement>,
-) -> (Vec<FoundBox>, Vec<Refused>) {
+) -> Found {
+    let mut clock = Clock::start();
     let owners = Owners::new(scene, sight.points.len());
     let mut shells = shells(sight, scene);
+    clock.lap("proposals");
     // Each by itself, in their order: the same bits on any number of threads.
     shells.par_iter_mut().for_each(|shell| {
         shell.flaps = scan_flaps(sight, &body_of(&shell.proposal), COARSE_M, COARSE_SCAN);
@@ -40,6 +52,7 @@ pub fn find(
         shell.score *= share_of_score(best_match_within(outer_m(&shell.proposal), PROPOSED_SIGMA_M, sizes).as_ref());
     });
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
+    clock.lap("flap scans");
     let judged = |one: &FoundBox| {
         let odds = |judgement: &Judgement| judgement.of_box(&features::of_box(sight, &owners, one)).0;
         judgement.map_or(1.0, |judgement| probability(odds(judgement)))
@@ -48,17 +61,19 @@ pub fn find(
     let rivals = best_of_rivals(&shells);
     let found = rivals.into_par_iter().filter_map(|shell| grow(sight, shell, settings)).map(weighed).collect();
     let chosen = choose(found, sight.width);
+    clock.lap("rival fits");
     let bodies: Vec<_> = chosen.iter().map(|chosen| chosen.one.solution.body.clone()).collect();
     let finishing = Finishing { sight, owners: &owners, sizes, settings, judgement };
     let ended: Vec<_> = chosen.into_par_iter().map(|chosen| finishing.best(chosen)).collect();
-    let (mut out, mut refused) = (Vec::new(), Vec::new());
+    clock.lap("last fits");
+    let (mut boxes, mut refused) = (Vec::new(), Vec::new());
     for (one, body) in ended.into_iter().zip(bodies) {
         match one {
-            Ok(one) => out.push(one),
+            Ok(one) => boxes.push(one),
             Err(why) => refused.push(Refused { body, why: Refusal::NotFitted(why) }),
         }
     }
-    (out, refused)
+    Found { boxes, refused, stage_seconds: clock.laps }
 }
 
 /// Without those that lie upon enough better ones.

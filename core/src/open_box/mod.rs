@@ -47,7 +47,7 @@ mod yaw;
 pub use answer::answer;
 pub use closed::may_be_closed;
 pub use features::Features;
-pub use find::find;
+pub use find::{find, Found};
 pub use grow::FoundBox;
 pub use judgement::Judgement;
 pub use kind::{open_boxes, Kinds};

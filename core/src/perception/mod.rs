@@ -1,6 +1,6 @@
 //! From a cloud to planar segments with rectangles. Knows no template: meaning begins in `model`.
 
-mod clock;
+pub(crate) mod clock;
 mod grid;
 mod outline;
 mod perceive;

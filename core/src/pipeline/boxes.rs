@@ -39,9 +39,11 @@ pub fn whole_boxes(
     open_boxes(&templates).next()?;
     let telling = Telling { templates: &templates, kinds, judgement, sizes, settings: FitSettings::default() };
     let sight = Sight::new(cloud, readings, scene)?;
-    let (found, refused) = open_box::find(&sight, scene, sizes, &telling.settings, judgement);
-    let mut answer = tell_boxes(&found, &refused, &[sight], &telling);
-    answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
+    let found = open_box::find(&sight, scene, sizes, &telling.settings, judgement);
+    let in_stages: f64 = found.stage_seconds.iter().map(|(_, seconds)| seconds).sum();
+    let mut answer = tell_boxes(&found.boxes, &found.refused, &[sight], &telling);
+    answer.stage_seconds = found.stage_seconds;
+    answer.stage_seconds.push(("box answers", start.elapsed().as_secs_f64() - in_stages));
     Some(answer)
 }
 

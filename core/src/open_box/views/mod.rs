@@ -61,9 +61,9 @@ pub fn fuse<'a>(
         .collect::<Result<_, _>>()?;
     let (mut found, mut refused) = (Vec::new(), Vec::new());
     for (sight, view) in own.iter().zip(views) {
-        let (of_view, not_told) = find(sight, view.scene, sizes, settings, judgement);
-        found.push(of_view);
-        refused.push(not_told);
+        let of_view = find(sight, view.scene, sizes, settings, judgement);
+        found.push(of_view.boxes);
+        refused.push(of_view.refused);
     }
     if views.len() == 1 {
         return Ok(Fused { sights: own, found: found.remove(0), refused: refused.remove(0), warnings: Vec::new() });
