@@ -27,11 +27,14 @@ pub enum Obstacle {
     NoWay { to: &'static str },
 }
 
+/// How the names of flaps and of their tucks begin.
+const FLAP_NAMES: [&str; 2] = ["flap_", "tuck_"];
+
 impl Obstacle {
-    /// Is it another flap than this, or may it be?
+    /// Is it another flap than this, or what hangs on one, or may it be?
     pub fn is_flap_beside(&self, flap: &Flap) -> bool {
         match self {
-            Self::Near { other, .. } => !flap.is_own(other) && other.starts_with(['f', 't']),
+            Self::Near { other, .. } => !flap.is_own(other) && FLAP_NAMES.iter().any(|start| other.starts_with(start)),
             Self::Something => true,
             _ => false,
         }
