@@ -13,9 +13,10 @@ const GRAZE_M: f64 = 0.006;
 /// Between two angles at which boards are held against each other.
 const STEP_RAD: f64 = 0.06;
 /// The ends of a flap that has sprung up give way by this much to one that comes down beside them. Steeper than this it presses them
-/// aside rather than down: board on board has friction, and cannot slide where its tangent is steeper than 1 / friction.
+/// aside rather than down: flap on flap has friction (0.3, as physics assumes it), and cannot slide where its tangent is steeper
+/// than 1 / friction.
 const GIVING_END_M: f64 = 0.015;
-const JAM_RAD: f64 = 1.2;
+const JAM_RAD: f64 = 1.279;
 /// Boards that meet this soon after the start met there already, by the model's error.
 const START_RAD: f64 = 0.09;
 

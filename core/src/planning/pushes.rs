@@ -61,7 +61,7 @@ impl<G: Guard> Closer<'_, G> {
             return Err(why);
         }
         // Other flaps may stand better for it, before or after.
-        let first = self.turned_down(flap, moment).ok_or(WhyNot { by_flaps: true, ..why })?;
+        let first = self.turned_down(flap, moment, why.by_flaps).ok_or(WhyNot { by_flaps: true, ..why })?;
         let rest_rad = first.last().map_or(moment.angles_rad[flap], |(_, rest_rad)| *rest_rad);
         let turned = moment.left(flap, rest_rad);
         let push = self.careful_push(flap, &turned, hold_rad);

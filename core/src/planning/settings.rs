@@ -135,7 +135,7 @@ impl Default for ForkSettings {
         let degrees = |values: &[f64]| values.iter().map(|value| value.to_radians()).collect();
         Self {
             least_strain: 0.6,
-            gap_m: 0.0015,
+            gap_m: 0.0001,
             most_depth_m: 0.05,
             least_tip_m: 0.008,
             least_depth_m: 0.010,
@@ -147,7 +147,7 @@ impl Default for ForkSettings {
             edge_m: 0.005,
             wanted_rad: 40f64.to_radians(),
             far_enough_rad: 62f64.to_radians(),
-            most_stages: 3,
+            most_stages: 2,
             least_part_rad: 30f64.to_radians(),
         }
     }

@@ -10,9 +10,10 @@ use super::settings::PlanningSettings;
 pub type Stage = (PushMotion, f64);
 
 impl<G: Guard> Closer<'_, G> {
-    /// Stages that leave a flap where a push can go on; None where none are found.
-    pub fn turned_down(&self, flap: usize, moment: &Moment) -> Option<Vec<Stage>> {
-        self.in_stages(flap, moment, self.settings.fork.most_stages)
+    /// Stages that leave a flap where a push can go on; None where none are found. Of a flap that others keep open, `by_flaps`, one
+    /// alone is looked for: it may be easier once they have moved.
+    pub fn turned_down(&self, flap: usize, moment: &Moment, by_flaps: bool) -> Option<Vec<Stage>> {
+        self.in_stages(flap, moment, if by_flaps { 1 } else { self.settings.fork.most_stages })
     }
 
     fn in_stages(&self, flap: usize, moment: &Moment, most: usize) -> Option<Vec<Stage>> {
