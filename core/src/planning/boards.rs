@@ -248,8 +248,12 @@ mod tests {
         let carton = carton(0.004, [0.2; 4]);
         let upright = std::f64::consts::FRAC_PI_2;
         let meets = |neighbour_rad: f64| met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings);
-        assert!(meets(0.05).is_none());
-        let Some(Obstacle::Boards { other, .. }) = meets(0.35) else { panic!("it jams") };
-        assert_eq!(other, "flap_1");
+        // Ends 0.019 m from the corner that stand up by 0.01 and 0.046 m are met below 68 degrees, one of 0.075 m above 75.
+        let counted =
+            [(0.05, false), (0.25, false), (0.42, true)].map(|(neighbour_rad, jams)| match meets(neighbour_rad) {
+                Some(Obstacle::Boards { other, .. }) => assert!(jams && other == "flap_1", "{neighbour_rad}: {other}"),
+                _ => assert!(!jams, "{neighbour_rad}"),
+            });
+        assert_eq!(counted.len(), 3);
     }
 }
