@@ -13,9 +13,10 @@ const GRAZE_M: f64 = 0.006;
 /// Between two angles at which boards are held against each other.
 const STEP_RAD: f64 = 0.06;
 /// The ends of a flap that has sprung up give way by this much to one that comes down beside them. Steeper than this it presses them
-/// aside rather than down: board on board has friction, and cannot slide where its tangent is steeper than 1 / friction.
+/// aside rather than down: flap on flap has friction (0.3, as physics assumes it), and cannot slide where its tangent is steeper
+/// than 1 / friction.
 const GIVING_END_M: f64 = 0.015;
-const JAM_RAD: f64 = 1.2;
+const JAM_RAD: f64 = 1.279;
 /// Boards that meet this soon after the start met there already, by the model's error.
 const START_RAD: f64 = 0.09;
 
@@ -247,8 +248,12 @@ mod tests {
         let carton = carton(0.004, [0.2; 4]);
         let upright = std::f64::consts::FRAC_PI_2;
         let meets = |neighbour_rad: f64| met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings);
-        assert!(meets(0.05).is_none());
-        let Some(Obstacle::Boards { other, .. }) = meets(0.35) else { panic!("it jams") };
-        assert_eq!(other, "flap_1");
+        // Ends 0.019 m from the corner that stand up by 0.01 and 0.046 m are met below 68 degrees, one of 0.075 m above 75.
+        let counted =
+            [(0.05, false), (0.25, false), (0.42, true)].map(|(neighbour_rad, jams)| match meets(neighbour_rad) {
+                Some(Obstacle::Boards { other, .. }) => assert!(jams && other == "flap_1", "{neighbour_rad}: {other}"),
+                _ => assert!(!jams, "{neighbour_rad}"),
+            });
+        assert_eq!(counted.len(), 3);
     }
 }

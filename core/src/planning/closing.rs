@@ -145,8 +145,12 @@ impl<G: Guard> Way<'_, '_, G> {
     fn close(&mut self, flap: usize, mut push: PushMotion) -> Result<f64, WhyNot> {
         let before = (self.at, self.opening_m, self.angles_rad.clone(), self.pieces.len());
         let rest_rad = self.closer.rest_rad(flap, &push);
-        let first = push.first.take().map(|first| (*first, push.hinge_rad[0]));
-        for (motion, rest_rad) in first.into_iter().chain(std::iter::once((push, rest_rad))) {
+        let mut motions = std::mem::take(&mut push.first);
+        motions.push(push);
+        // Each leaves the flap where the next begins.
+        let left = motions.iter().skip(1).map(|next| next.hinge_rad[0]).chain(std::iter::once(rest_rad));
+        let left: Vec<f64> = left.collect();
+        for (motion, rest_rad) in motions.into_iter().zip(left) {
             if self.push(flap, motion, rest_rad).is_none() {
                 (self.at, self.opening_m, self.angles_rad) = (before.0, before.1, before.2);
                 self.pieces.truncate(before.3);

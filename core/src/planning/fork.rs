@@ -26,6 +26,8 @@ pub struct Fork<'a, G: Guard> {
     pub stand: Option<&'a Stand>,
     /// Where all flaps are before it.
     pub before: &'a Moment,
+    /// Down to where it is to be turned at the least, rad.
+    pub until_rad: f64,
 }
 
 /// The fingers at one opening.
@@ -48,7 +50,7 @@ impl<G: Guard> Fork<'_, G> {
     fn moves_box(&self, astride: &Astride) -> bool {
         let Some(stand) = self.stand else { return false };
         let couple_n_m = self.fold.crease_n_m + self.fold.weight_n_m;
-        [self.start_rad(), self.settings.fork.far_enough_rad].iter().any(|&angle_rad| {
+        [self.start_rad(), self.until_rad].iter().any(|&angle_rad| {
             let frame = self.flap.frame(angle_rad);
             let couple = (frame.away * astride.twist - frame.along) * couple_n_m;
             stand.strain_of_couple(&couple) > self.settings.most_strain
@@ -64,7 +66,7 @@ impl<G: Guard> Held<'_, G> {
     fn plan(&self) -> Option<(PushMotion, f64)> {
         let fork = self.fork;
         let start_rad = fork.start_rad();
-        let places = [(start_rad, 0.0), (start_rad, 1.0), (fork.settings.fork.far_enough_rad, 1.0)];
+        let places = [(start_rad, 0.0), (start_rad, 1.0), (fork.until_rad, 1.0)];
         let is_near = |(angle_rad, lean): (f64, f64)| {
             self.guard.tool_conflict(&self.pose(angle_rad, lean), &self.at(angle_rad), self.clearance_m()).is_some()
         };
@@ -78,12 +80,11 @@ impl<G: Guard> Held<'_, G> {
     /// Leaning, down as far as the arm can follow, and flat again: first in wide steps, then in close ones.
     fn turned(&self, start: &JointPositions) -> Option<PushMotion> {
         let settings = self.fork.settings;
-        let far_enough_rad = settings.fork.far_enough_rad;
         let wide = self.places(settings.fork.wanted_rad, settings.layer_rad, false);
         let found = self.followed(start, &wide, settings.most_turn_rad);
         let last = found.len().checked_sub(1).map_or((f64::INFINITY, 0.0), |last| wide[last]);
         let mut to_rad = if last.1 < 1.0 { f64::INFINITY } else { last.0 };
-        while to_rad <= far_enough_rad {
+        while to_rad <= self.fork.until_rad {
             let close = self.places(to_rad, settings.sample_rad, true);
             let push = self.followed(start, &close, settings.most_sample_turn_rad);
             if push.len() == close.len() {
@@ -151,9 +152,9 @@ impl<G: Guard> Held<'_, G> {
         };
         let (first, last) = (motion.push[0], motion.push[motion.push.len() - 1]);
         let mut approach =
-            lines.leave(&first, &grip(start_rad, 0.0), &frame(start_rad), &self.at(start_rad), fork.before).ok()?;
+            lines.draw_off(&first, &grip(start_rad, 0.0), &frame(start_rad), &self.at(start_rad), fork.before).ok()?;
         approach.reverse();
-        let retreat = lines.leave(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after).ok()?;
+        let retreat = lines.draw_off(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after).ok()?;
         motion = PushMotion { approach, retreat, ..motion };
         if comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) != (true, true) {
             return None;

@@ -49,6 +49,22 @@ impl<G: Guard> Lines<'_, G> {
         Err(why)
     }
 
+    /// The same of fingers astride a flap: straight back along themselves, where a way that leans would catch on the board's edge.
+    ///
+    /// # Errors
+    /// What was in the way.
+    pub fn draw_off(
+        &self,
+        from: &JointPositions,
+        grip: &Grip,
+        frame: &FlapFrame,
+        touching: &Moment,
+        free: &Moment,
+    ) -> Result<Vec<JointPositions>, Obstacle> {
+        let back = -Vec3::from(grip.base_from_tool.rotation.column(2)) * self.settings.slide_off_m;
+        self.way_off(from, &grip.base_from_tool, &back, frame, touching, free)
+    }
+
     /// Where there is no room to lift the finger off the face it slides out: along itself, past the flap's ends or its free edge.
     fn slides(&self, grip: &Grip, frame: &FlapFrame) -> impl Iterator<Item = Vec3> {
         let back = -Vec3::from(grip.base_from_tool.rotation.column(2));

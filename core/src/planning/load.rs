@@ -186,22 +186,25 @@ impl Load {
 
     /// The share of what moves the box that such a push is, at the best place of the worst angle (eq. 97).
     pub fn worst_strain(&self, problem: &BoxProblem, flap: usize) -> f64 {
+        let open_rad = problem.flaps[flap].position_rad;
+        let steps = (open_rad / BEARABLE_STEP_RAD).ceil().max(1.0) as usize;
+        let angles_rad = (0..=steps).map(|step| open_rad * (1.0 - step as f64 / steps as f64));
+        angles_rad.map(|angle_rad| self.strain_at(problem, flap, angle_rad)).fold(0.0, f64::max)
+    }
+
+    /// The same at one angle.
+    pub fn strain_at(&self, problem: &BoxProblem, flap: usize, angle_rad: f64) -> f64 {
         let (Some(stand), fold) = (&self.stand, self.folds[flap]) else { return 0.0 };
         let flap = &problem.flaps[flap];
-        let places = || (0..PLACES * PLACES).map(|k| [k % PLACES, k / PLACES].map(|k| (k + 1) as f64 / PLACES as f64));
-        let steps = (flap.position_rad / BEARABLE_STEP_RAD).ceil().max(1.0) as usize;
-        let strains = (0..=steps).map(|step| {
-            let angle_rad = flap.position_rad * (1.0 - step as f64 / steps as f64);
-            let frame = flap.frame(angle_rad);
-            let strain = |[along, away]: [f64; 2]| {
-                let lever_m = away * flap.length_m();
-                let at = frame.at(along * flap.hinge_length_m(), lever_m, problem.thickness_m / 2.0);
-                let push_n = fold.closing_n_m(angle_rad).max(0.0) / lever_m;
-                stand.strain(&at, &(frame.push() * push_n))
-            };
-            places().map(strain).fold(f64::INFINITY, f64::min)
+        let frame = flap.frame(angle_rad);
+        let places = (0..PLACES * PLACES).map(|k| [k % PLACES, k / PLACES].map(|k| (k + 1) as f64 / PLACES as f64));
+        let strains = places.map(|[along, away]| {
+            let lever_m = away * flap.length_m();
+            let at = frame.at(along * flap.hinge_length_m(), lever_m, problem.thickness_m / 2.0);
+            let push_n = fold.closing_n_m(angle_rad).max(0.0) / lever_m;
+            stand.strain(&at, &(frame.push() * push_n))
         });
-        strains.fold(0.0, f64::max)
+        strains.fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -33,6 +33,7 @@ mod reason;
 mod request;
 mod searches;
 mod settings;
+mod stages;
 mod surroundings;
 mod timing;
 mod touch;

@@ -42,22 +42,40 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
     ordered
 }
 
-/// Puts last what may move the box, so that no other flap is missed for it.
+/// Puts last what may move the box, so that no other flap is missed for it; then what only that kept open.
 fn add_sliding<G: Guard>(closer: &Closer<'_, G>, ordered: &mut Ordered, angles_rad: &[f64]) {
     let mut angles_rad = angles_rad.to_vec();
     for (&flap, push) in ordered.order.iter().zip(&ordered.pushes) {
         angles_rad[flap] = closer.rest_rad(flap, push);
     }
-    for (flap, why) in std::mem::take(&mut ordered.why_not) {
-        let push = if why.moves_box { closer.push_home(flap, &Moment::resting(&angles_rad)) } else { None };
-        match push {
-            Some(push) => {
-                angles_rad[flap] = closer.rest_rad(flap, &push);
-                ordered.order.push(flap);
-                ordered.pushes.push(push);
-            }
-            None => ordered.why_not.push((flap, why)),
+    while let Some((place, push)) = ordered.first_sliding(closer, &angles_rad) {
+        ordered.add(closer, place, push, &mut angles_rad);
+        while let Some((place, push)) = ordered.first_freed(closer, &angles_rad) {
+            ordered.add(closer, place, push, &mut angles_rad);
         }
+    }
+}
+
+impl Ordered {
+    /// Of the flaps left, where the first is that closes if the box may move, and its push.
+    fn first_sliding<G: Guard>(&self, closer: &Closer<'_, G>, angles_rad: &[f64]) -> Option<(usize, PushMotion)> {
+        let moment = Moment::resting(angles_rad);
+        let mut moving = self.why_not.iter().enumerate().filter(|(_, (_, why))| why.moves_box);
+        moving.find_map(|(place, &(flap, _))| Some((place, closer.push_home(flap, &moment)?)))
+    }
+
+    /// The same of those that other flaps kept open.
+    fn first_freed<G: Guard>(&self, closer: &Closer<'_, G>, angles_rad: &[f64]) -> Option<(usize, PushMotion)> {
+        let moment = Moment::resting(angles_rad);
+        let mut kept = self.why_not.iter().enumerate().filter(|(_, (_, why))| why.by_flaps);
+        kept.find_map(|(place, &(flap, _))| Some((place, closer.push(flap, &moment).ok()?)))
+    }
+
+    fn add<G: Guard>(&mut self, closer: &Closer<'_, G>, place: usize, push: PushMotion, angles_rad: &mut [f64]) {
+        let (flap, _) = self.why_not.remove(place);
+        angles_rad[flap] = closer.rest_rad(flap, &push);
+        self.order.push(flap);
+        self.pushes.push(push);
     }
 }
 

@@ -189,7 +189,7 @@ impl<G: Guard> PlanesSearch<'_, '_, G> {
             retreat,
             meanwhile_rad: pressed.angles_rad,
             opening_m: pusher.arm.gripper.opening_m[0],
-            first: None,
+            first: Vec::new(),
         })
     }
 }

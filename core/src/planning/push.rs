@@ -31,8 +31,8 @@ pub struct PushMotion {
     pub meanwhile_rad: Vec<f64>,
     /// The free gap between the fingers.
     pub opening_m: f64,
-    /// What turns the flap first, until this can push it.
-    pub first: Option<Box<PushMotion>>,
+    /// What turns the flap first, one after the other, until this can push it.
+    pub first: Vec<PushMotion>,
 }
 
 /// Plans the push of one flap.
@@ -154,7 +154,7 @@ impl<G: Guard> Pusher<'_, G> {
             retreat: Vec::new(),
             meanwhile_rad: layers.moment.angles_rad.clone(),
             opening_m: self.arm.gripper.opening_m[0],
-            first: None,
+            first: Vec::new(),
         };
         let mut last = start;
         for step in 0..=steps {

@@ -3,7 +3,6 @@
 use super::boards::met;
 use super::closing::Closer;
 use super::contact::Contacts;
-use super::fork::Fork;
 use super::guard::{Guard, Moment};
 use super::known::{Force, Tried};
 use super::orientations::OrientationGrid;
@@ -55,22 +54,19 @@ impl<G: Guard> Closer<'_, G> {
         }
     }
 
-    /// Turned with the fingers astride it until a push can go on: where a push from the start moves the box, or has no room.
+    /// Turned in stages until a push can go on: where a push from the start moves the box, or has no room.
     fn fork_and_push(&self, flap: usize, moment: &Moment, hold_rad: f64, why: WhyNot) -> Tried {
-        let (board, fold) = (&self.problem.flaps[flap], self.load.folds[flap]);
-        let settings = self.settings_of(flap);
-        if !board.tucks.is_empty() || moment.angles_rad[flap] <= settings.fork.far_enough_rad {
+        let is_down = moment.angles_rad[flap] <= self.settings.fork.far_enough_rad;
+        if !self.problem.flaps[flap].tucks.is_empty() || is_down {
             return Err(why);
         }
-        let stand = self.load.stand.as_ref();
-        let (arm, guard, thickness_m) = (self.arm, self.guard, self.problem.thickness_m);
-        let fork = Fork { arm, guard, settings, flap: board, number: flap, thickness_m, fold, stand, before: moment };
         // Other flaps may stand better for it, before or after.
-        let (first, rest_rad) = fork.plan().ok_or(WhyNot { by_flaps: true, ..why })?;
+        let first = self.turned_down(flap, moment, why.by_flaps).ok_or(WhyNot { by_flaps: true, ..why })?;
+        let rest_rad = first.last().map_or(moment.angles_rad[flap], |(_, rest_rad)| *rest_rad);
         let turned = moment.left(flap, rest_rad);
         let push = self.careful_push(flap, &turned, hold_rad);
         let push = push.or_else(|_| self.pusher(flap, &turned, hold_rad, f64::INFINITY).plan())?;
-        Ok(PushMotion { first: Some(Box::new(first)), ..push })
+        Ok(PushMotion { first: first.into_iter().map(|(motion, _)| motion).collect(), ..push })
     }
 
     /// The same without a reserve of force; a flap that stands low closes even if the box slides a little. None where there is none.
@@ -98,7 +94,7 @@ impl<G: Guard> Closer<'_, G> {
         self.margins.settings_of(flap).unwrap_or(self.settings)
     }
 
-    fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
+    pub fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
         let settings = self.settings_of(flap);
         let half_board_m = self.problem.thickness_m / 2.0;
         Pusher {

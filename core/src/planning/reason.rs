@@ -27,11 +27,14 @@ pub enum Obstacle {
     NoWay { to: &'static str },
 }
 
+/// How the names of flaps and of their tucks begin.
+const FLAP_NAMES: [&str; 2] = ["flap_", "tuck_"];
+
 impl Obstacle {
-    /// Is it another flap than this, or may it be?
+    /// Is it another flap than this, or what hangs on one, or may it be?
     pub fn is_flap_beside(&self, flap: &Flap) -> bool {
         match self {
-            Self::Near { other, .. } => !flap.is_own(other) && other.starts_with(['f', 't']),
+            Self::Near { other, .. } => !flap.is_own(other) && FLAP_NAMES.iter().any(|start| other.starts_with(start)),
             Self::Something => true,
             _ => false,
         }
@@ -132,5 +135,42 @@ impl WhyNot {
     pub fn by_boards(obstacle: &Obstacle) -> Self {
         let reason = obstacle.to_string();
         Self { status: Status::Blocked, reason, by_flaps: true, at_start: false, moves_box: false, searched: false }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::problem::MeasuredBox;
+    use super::*;
+
+    #[test]
+    fn a_flap_beside_is_a_flap_and_no_other_thing_that_begins_alike() {
+        let corners = [[0.0, 0.0, 0.2], [0.2, 0.0, 0.2], [0.2, 0.0, 0.3], [0.0, 0.0, 0.3]];
+        let told = serde_json::json!({
+            "thickness_m": 0.004, "fixed": [], "support": null,
+            "flaps": [{
+                "name": "flap_0", "side": "side_0", "standing": "seen", "origin": [0.1, 0.0, 0.2], "axis": [1.0, 0.0, 0.0],
+                "position_rad": std::f64::consts::FRAC_PI_2, "corners": corners,
+                "tucks": [{"name": "tuck_0", "corners": corners}],
+            }],
+        });
+        let problem = serde_json::from_value::<MeasuredBox>(told).unwrap().into_problem().unwrap();
+        let near = |other: &str| Obstacle::Near { body: "fingers".into(), other: other.into() };
+        let asked = [
+            (near("flap_1"), true),
+            (near("tuck_1"), true),
+            (near("flap_0"), false),
+            (near("tuck_0"), false),
+            (near("side_1"), false),
+            (near("the support"), false),
+            (near("fence"), false),
+            (Obstacle::Something, true),
+            (Obstacle::Reach, false),
+        ];
+        let counted = asked.iter().filter(|(obstacle, is_beside)| {
+            assert_eq!(obstacle.is_flap_beside(&problem.flaps[0]), *is_beside, "{obstacle:?}");
+            true
+        });
+        assert_eq!(counted.count(), 9);
     }
 }

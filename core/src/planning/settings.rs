@@ -125,6 +125,9 @@ pub struct ForkSettings {
     /// The flap is turned down to the first, at the least to the second; a push goes on from where it springs back to.
     pub wanted_rad: f64,
     pub far_enough_rad: f64,
+    /// Where that is not reached at once it is turned in so many stages, each at the least so far.
+    pub most_stages: usize,
+    pub least_part_rad: f64,
 }
 
 impl Default for ForkSettings {
@@ -132,7 +135,7 @@ impl Default for ForkSettings {
         let degrees = |values: &[f64]| values.iter().map(|value| value.to_radians()).collect();
         Self {
             least_strain: 0.6,
-            gap_m: 0.0015,
+            gap_m: 0.0001,
             most_depth_m: 0.05,
             least_tip_m: 0.008,
             least_depth_m: 0.010,
@@ -144,6 +147,8 @@ impl Default for ForkSettings {
             edge_m: 0.005,
             wanted_rad: 40f64.to_radians(),
             far_enough_rad: 62f64.to_radians(),
+            most_stages: 2,
+            least_part_rad: 30f64.to_radians(),
         }
     }
 }

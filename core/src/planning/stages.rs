@@ -1,0 +1,81 @@
+//! Turns a flap down in stages, each from where the one before leaves it: with the fingers astride it, pushed part of the way.
+
+use super::closing::Closer;
+use super::fork::Fork;
+use super::guard::{Guard, Moment};
+use super::push::{PushMotion, Pusher};
+use super::settings::PlanningSettings;
+
+/// A motion, and where the flap rests after it, rad.
+pub type Stage = (PushMotion, f64);
+
+impl<G: Guard> Closer<'_, G> {
+    /// Stages that leave a flap where a push can go on; None where none are found. Of a flap that others keep open, `by_flaps`, one
+    /// alone is looked for: it may be easier once they have moved.
+    pub fn turned_down(&self, flap: usize, moment: &Moment, by_flaps: bool) -> Option<Vec<Stage>> {
+        self.in_stages(flap, moment, if by_flaps { 1 } else { self.settings.fork.most_stages })
+    }
+
+    fn in_stages(&self, flap: usize, moment: &Moment, most: usize) -> Option<Vec<Stage>> {
+        let fork = &self.settings.fork;
+        let start_rad = moment.angles_rad[flap];
+        if start_rad <= fork.far_enough_rad {
+            return Some(Vec::new());
+        }
+        let whole = self.forked(flap, moment, fork.far_enough_rad);
+        if whole.is_some() || most < 2 {
+            return whole.map(|stage| vec![stage]);
+        }
+        let in_part = || self.forked(flap, moment, start_rad - fork.least_part_rad);
+        let pushed = self.parts_rad(flap, start_rad);
+        let stages =
+            std::iter::once_with(in_part).chain(pushed.into_iter().map(|to_rad| self.pushed_to(flap, moment, to_rad)));
+        stages.flatten().find_map(|stage| {
+            let turned = moment.left(flap, stage.1);
+            let mut rest = self.in_stages(flap, &turned, most - 1)?;
+            rest.insert(0, stage);
+            Some(rest)
+        })
+    }
+
+    /// With the fingers astride it, at the least to an angle.
+    fn forked(&self, flap: usize, moment: &Moment, until_rad: f64) -> Option<Stage> {
+        let (arm, guard, thickness_m) = (self.arm, self.guard, self.problem.thickness_m);
+        let fork = Fork {
+            arm,
+            guard,
+            settings: self.settings_of(flap),
+            flap: &self.problem.flaps[flap],
+            number: flap,
+            thickness_m,
+            fold: self.load.folds[flap],
+            stand: self.load.stand.as_ref(),
+            before: moment,
+            until_rad,
+        };
+        fork.plan()
+    }
+
+    /// Where a push may end part of the way: as long as statics bear it, the furthest first.
+    fn parts_rad(&self, flap: usize, start_rad: f64) -> Vec<f64> {
+        let fork = &self.settings.fork;
+        let ends = (1..).map(|part| start_rad - f64::from(part) * fork.least_part_rad);
+        let ends = ends.take_while(|&to_rad| to_rad > fork.far_enough_rad);
+        let borne =
+            ends.take_while(|&to_rad| self.load.strain_at(self.problem, flap, to_rad) <= self.settings.most_strain);
+        let mut found: Vec<f64> = borne.collect();
+        found.reverse();
+        found
+    }
+
+    /// Pushed to an angle with a reserve to what moves the box; one search alone.
+    fn pushed_to(&self, flap: usize, moment: &Moment, to_rad: f64) -> Option<Stage> {
+        let settings = self.settings_of(flap);
+        let settings =
+            PlanningSettings { beams: settings.beams[..settings.beams.len().min(1)].to_vec(), ..settings.clone() };
+        let pusher = self.pusher(flap, moment, to_rad, settings.most_strain);
+        let rest_rad = self.load.folds[flap].rest_rad(to_rad);
+        let motion = Pusher { settings: &settings, rest_rad, ..pusher }.plan().ok()?;
+        Some((motion, rest_rad))
+    }
+}
