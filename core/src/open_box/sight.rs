@@ -95,7 +95,8 @@ impl<'a> Sight<'a> {
         let points: Vec<[f32; 3]> = cloud.points.iter().map(place).collect();
         let from = eye.cast::<f32>();
         let look = |at: &[f32; 3]| {
-            let range = (nalgebra::Vector3::from(*at) - from).norm();
+            // What lies at the camera itself is no surface's reading.
+            let range = (nalgebra::Vector3::from(*at) - from).norm().max(LEAST_RANGE_M);
             Reading { at: *at, noise: SIGMAS as f32 * readings.sigma_at_range_m(f64::from(range)) as f32 / range }
         };
         Some(Self {
@@ -173,6 +174,7 @@ impl<'a> Sight<'a> {
     }
 }
 
+const LEAST_RANGE_M: f32 = 1e-3;
 /// Standard deviations within which a reading is on a surface.
 const SIGMAS: f64 = 3.0;
 
