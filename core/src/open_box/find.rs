@@ -52,7 +52,7 @@ pub fn find(
         shell.score *= share_of_score(best_match_within(outer_m(&shell.proposal), PROPOSED_SIGMA_M, sizes).as_ref());
     });
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
-    clock.lap("flap scans");
+    clock.lap("flap_scans");
     let judged = |one: &FoundBox| {
         let odds = |judgement: &Judgement| judgement.of_box(&features::of_box(sight, &owners, one)).0;
         judgement.map_or(1.0, |judgement| probability(odds(judgement)))
@@ -61,11 +61,11 @@ pub fn find(
     let rivals = best_of_rivals(&shells);
     let found = rivals.into_par_iter().filter_map(|shell| grow(sight, shell, settings)).map(weighed).collect();
     let chosen = choose(found, sight.width);
-    clock.lap("rival fits");
+    clock.lap("rival_fits");
     let bodies: Vec<_> = chosen.iter().map(|chosen| chosen.one.solution.body.clone()).collect();
     let finishing = Finishing { sight, owners: &owners, sizes, settings, judgement };
     let ended: Vec<_> = chosen.into_par_iter().map(|chosen| finishing.best(chosen)).collect();
-    clock.lap("last fits");
+    clock.lap("last_fits");
     let (mut boxes, mut refused) = (Vec::new(), Vec::new());
     for (one, body) in ended.into_iter().zip(bodies) {
         match one {

@@ -43,7 +43,7 @@ pub fn whole_boxes(
     let in_stages: f64 = found.stage_seconds.iter().map(|(_, seconds)| seconds).sum();
     let mut answer = tell_boxes(&found.boxes, &found.refused, &[sight], &telling);
     answer.stage_seconds = found.stage_seconds;
-    answer.stage_seconds.push(("box answers", start.elapsed().as_secs_f64() - in_stages));
+    answer.stage_seconds.push(("box_answers", start.elapsed().as_secs_f64() - in_stages));
     Some(answer)
 }
 
