@@ -23,6 +23,11 @@ const LEAN_OFF: f64 = 0.3;
 /// Less of a way out is none, of `withdraw_m`.
 const LEAST_WAY_OUT: f64 = 0.25;
 
+/// Against the tool's axis, unit vector, base frame.
+fn back_along_itself(grip: &Grip) -> Vec3 {
+    -Vec3::from(grip.base_from_tool.rotation.column(2))
+}
+
 impl<G: Guard> Lines<'_, G> {
     /// Postures from a touch to a place where nothing is near: off the face, then out along the first direction that is clear.
     /// `touching` is the moment of the touch, `free` that after it.
@@ -61,13 +66,13 @@ impl<G: Guard> Lines<'_, G> {
         touching: &Moment,
         free: &Moment,
     ) -> Result<Vec<JointPositions>, Obstacle> {
-        let back = -Vec3::from(grip.base_from_tool.rotation.column(2)) * self.settings.slide_off_m;
+        let back = back_along_itself(grip) * self.settings.slide_off_m;
         self.way_off(from, &grip.base_from_tool, &back, frame, touching, free)
     }
 
     /// Where there is no room to lift the finger off the face it slides out: along itself, past the flap's ends or its free edge.
     fn slides(&self, grip: &Grip, frame: &FlapFrame) -> impl Iterator<Item = Vec3> {
-        let back = -Vec3::from(grip.base_from_tool.rotation.column(2));
+        let back = back_along_itself(grip);
         let (slide_m, outward) = (self.settings.slide_off_m, frame.outward);
         let ways = [back, frame.along, -frame.along, frame.away];
         // Rather a little off the board than along it.
