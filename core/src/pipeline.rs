@@ -82,7 +82,7 @@ pub fn infer(
     let scene = perceive(cloud, perception)?;
     if let Bodies::Fitted(_, judgement, sizes) = bodies {
         let readings = Readings::new(cloud, perception);
-        if let Some(mut answer) = whole_boxes(cloud, &scene, &readings, models, kinds, judgement, sizes) {
+        if let Some(mut answer) = whole_boxes(cloud, &scene, &readings, models, kinds, judgement, sizes)? {
             answer.warnings.extend(size_warnings(&answer.objects, sizes));
             return Ok((scene, answer));
         }

@@ -2,10 +2,10 @@
 
 use boxwright_core::cloud::CloudView;
 use boxwright_core::geometry::Vec3;
-use boxwright_core::inference::{ObjectModel, SearchSettings};
-use boxwright_core::model::{Template, Weights};
+use boxwright_core::inference::{FoundObject, ObjectModel, SearchSettings};
+use boxwright_core::model::{SegmentSet, Template, Weights};
 use boxwright_core::open_box::Kinds;
-use boxwright_core::perception::PerceptionSettings;
+use boxwright_core::perception::{PerceptionSettings, Scene};
 use boxwright_core::pipeline::{infer, Answer, Bodies};
 
 const WIDTH: usize = 480;
@@ -71,15 +71,22 @@ fn look(panels: &[Panel]) -> Vec<[f32; 3]> {
 }
 
 fn understood(points: &[[f32; 3]]) -> Answer {
+    inferred(points, &model()).1
+}
+
+fn model() -> ObjectModel {
+    let template = Template::from_toml(include_str!("../../src/boxwright/models/templates/exact/carton.toml")).unwrap();
+    let weights = Weights::from_json(&common::unit_weights(&template, 0.0), &template).unwrap();
+    ObjectModel::new(template, weights, &SearchSettings::default().staged)
+}
+
+fn inferred(points: &[[f32; 3]], model: &ObjectModel) -> (Scene, Answer) {
     let cloud = CloudView { points, width: WIDTH, height: HEIGHT, viewpoint: Some(Vec3::zeros()) };
     let scene = boxwright_core::perception::perceive(&cloud, &PerceptionSettings::default()).unwrap();
     assert!(scene.support.is_some(), "the floor was overlooked");
-    let template = Template::from_toml(include_str!("../../src/boxwright/models/templates/exact/carton.toml")).unwrap();
-    let weights = Weights::from_json(&common::unit_weights(&template, 0.0), &template).unwrap();
-    let search = SearchSettings::default();
-    let model = ObjectModel::new(template, weights, &search.staged);
-    let bodies = Bodies::Fitted(&cloud, None, &[]);
-    infer(&cloud, &PerceptionSettings::default(), &[model], &search, bodies, &Kinds::default()).unwrap().1
+    let (search, bodies) = (SearchSettings::default(), Bodies::Fitted(&cloud, None, &[]));
+    let models = std::slice::from_ref(model);
+    infer(&cloud, &PerceptionSettings::default(), models, &search, bodies, &Kinds::default()).unwrap()
 }
 
 mod common;
@@ -112,4 +119,29 @@ fn the_same_readings_give_the_same_box() {
     assert_eq!(one.objects, other.objects);
     assert_eq!(one.part_of_point, other.part_of_point);
     assert!(one.part_of_point.iter().any(|part| *part >= 0));
+}
+
+#[test]
+fn a_box_is_told_what_its_assignment_scores() {
+    let mut cases = 0;
+    for positions in [[150.0, 110.0, 60.0, 200.0], [180.0, 90.0, 170.0, 35.0]] {
+        let model = model();
+        let (scene, answer) = inferred(&look(&scene(positions)), &model);
+        let set = SegmentSet::by_group(&scene).into_iter().max_by_key(SegmentSet::len).unwrap();
+        let of_part = |part: usize| {
+            let is_its = |point: &&u32| answer.part_of_point[**point as usize] == part as i16;
+            let held = |member: usize| scene.segments.points_of(set.scene_index[member]).iter().filter(is_its).count();
+            (0..set.len()).max_by_key(|&member| held(member)).filter(|&member| held(member) > 0)
+        };
+        let assignment: Vec<_> = (0..model.template.parts.len()).map(of_part).collect();
+        let each_once = assignment.iter().flatten().collect::<std::collections::BTreeSet<_>>().len();
+        assert_eq!(each_once, assignment.iter().flatten().count(), "two parts share a segment");
+        assert!(each_once >= 4, "{assignment:?}");
+        let expected = FoundObject::of_assignment(&model, &set, assignment).candidate.score;
+        let told = answer.features[0].of_box["assignment"];
+        // Whichever way round a carton is told, it scores the same.
+        assert!((told - expected).abs() < 1e-9, "{told} for {expected}");
+        cases += 1;
+    }
+    assert_eq!(cases, 2);
 }

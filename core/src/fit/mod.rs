@@ -45,6 +45,7 @@ pub(crate) use problem::{Problem, Support};
 pub(crate) use readings::{PartEnds, PartReadings, PartSegment};
 pub(crate) use sensor::Sensor;
 pub(crate) use solve::{solve, Solution};
+pub(crate) use start::start;
 pub(crate) use wall_lean::wall_lean;
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ mod staged;
 pub use exact::{marginals, solve, ExactSettings, Marginals, Rules, Solution};
 pub use exhaustive::best_exhaustive;
 pub use graph::{RelationGraph, SearchPlan, SearchPlans};
-pub use objects::{find_objects, FoundMarginals, FoundObject, FoundObjects, ObjectModel};
+pub use objects::{find_objects, likely_assignments, FoundMarginals, FoundObject, FoundObjects, ObjectModel};
 pub use potentials::{Edge, Potentials};
 pub use settings::{SearchMethod, SearchSettings};
 pub use staged::{rank_staged, Candidate, Ranking, StagedSettings};

@@ -1,6 +1,6 @@
 //! Several objects among the same segments: the best one first, then the best of what it left.
 
-use super::exact::{marginals, solve, ExactSettings, Rules};
+use super::exact::{marginals, solve, ExactSettings, Rules, Solution};
 use super::graph::SearchPlans;
 use super::settings::{SearchMethod, SearchSettings};
 use super::staged::{rank_staged, Candidate, StagedSettings};
@@ -106,6 +106,36 @@ pub fn find_objects(models: &[ObjectModel], set: &SegmentSet, settings: &SearchS
     }
 }
 
+/// Assignments that may be objects: of each object that `find_objects` takes out, best first, it and those that rank next among the
+/// same segments, `most` in all, each with the number of its model. `tables` are the models' own.
+///
+/// # Errors
+/// As of `find_objects`.
+pub fn likely_assignments(
+    models: &[&ObjectModel],
+    tables: &[FeatureTables],
+    settings: &ExactSettings,
+    most: usize,
+) -> Result<Vec<(usize, Candidate)>> {
+    let mut taken = vec![false; tables.first().map_or(0, |tables| tables.segment_count)];
+    let mut out = Vec::new();
+    loop {
+        let mut ranked = Vec::new();
+        for (number, (model, tables)) in models.iter().zip(tables).enumerate() {
+            let solution = accepted(model, tables, &taken, settings)?;
+            ranked.extend(solution.candidates.into_iter().map(|candidate| (number, candidate)));
+        }
+        // A stable sort: of models that score the same the first one wins.
+        ranked.sort_by(|a, b| b.1.score.total_cmp(&a.1.score));
+        ranked.truncate(most);
+        let Some((_, first)) = ranked.first() else { return Ok(out) };
+        for segment in first.assignment.iter().flatten() {
+            taken[*segment] = true;
+        }
+        out.extend(ranked);
+    }
+}
+
 /// The best object of all models; without one, what was perhaps missed.
 fn best_object(
     models: &[ObjectModel],
@@ -176,12 +206,17 @@ fn exact_contender(
     taken: &[bool],
     settings: &ExactSettings,
 ) -> Result<(Option<Contender>, Option<f64>)> {
-    let (template, weights) = (&model.template, &model.weights);
-    let rules = Rules { most: RANKED, floor: weights.accept_score, accept: Some(&template.accept) };
-    let solution = solve(template, weights, tables, taken, rules, settings)?;
+    let solution = accepted(model, tables, taken, settings)?;
     let (gap, alternatives) = (solution.gap, solution.candidates.len().saturating_sub(1));
     let first = solution.candidates.into_iter().next();
     Ok((first.map(|candidate| Contender { candidate, gap, alternatives }), solution.unseen))
+}
+
+/// The best assignments of those that the template accepts and that score enough.
+fn accepted(model: &ObjectModel, tables: &FeatureTables, taken: &[bool], settings: &ExactSettings) -> Result<Solution> {
+    let (template, weights) = (&model.template, &model.weights);
+    let rules = Rules { most: RANKED, floor: weights.accept_score, accept: Some(&template.accept) };
+    solve(template, weights, tables, taken, rules, settings)
 }
 
 /// The probability of the object's assignment among all of its template, none where the sums leave out too much, and the

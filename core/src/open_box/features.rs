@@ -4,6 +4,7 @@ use super::ends::goes_on;
 use super::evidence::{Evidence, Sheet};
 use super::grow::{FoundBox, FINE_M};
 use super::lean::lean;
+use super::assignments::Assignments;
 use super::owners::Owners;
 use super::rims;
 use super::sight::Sight;
@@ -13,7 +14,7 @@ use crate::fit::{layout, Role};
 pub type Features = Vec<(&'static str, f64)>;
 
 /// Their names, in order.
-pub const BOX_FEATURES: [&str; 27] = [
+pub const BOX_FEATURES: [&str; 28] = [
     "one",
     "on_walls",
     "on_inner_faces",
@@ -41,6 +42,7 @@ pub const BOX_FEATURES: [&str; 27] = [
     "rims_go_on",
     "rims_looked_through",
     "sides_go_on",
+    "assignment",
 ];
 pub const PART_FEATURES: [&str; 14] = [
     "one",
@@ -84,7 +86,7 @@ fn share(part: f64, rest: f64) -> f64 {
 }
 
 /// Of the whole box.
-pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
+pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox) -> Features {
     let body = &found.solution.body;
     let opening = Sheet::of_opening(body, &sight.eye).look(sight, FINE_M);
     let readings = |wanted: &dyn Fn(Role) -> bool| -> f64 {
@@ -140,7 +142,7 @@ pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
         ("shorter_edge", shorter_edge),
         ("height", height),
         ("slimness", (l.max(w) / l.min(w).max(0.01)).ln()),
-        ("held", owners.held(panels.flat_map(|(_, points)| points), each)),
+        ("held", assignments.owners.held(panels.flat_map(|(_, points)| points), each)),
         ("flaps_go_on", go_on / flaps_seen.max(1.0)),
         ("hidden_and_closed", walls_hidden * closed_over),
         ("flaps_and_inside", flaps_seen * some(looked_inside)),
@@ -152,6 +154,7 @@ pub fn of_box(sight: &Sight, owners: &Owners, found: &FoundBox) -> Features {
         ("rims_go_on", rims_go_on),
         ("rims_looked_through", rims_through),
         ("sides_go_on", sides_go_on / sides_seen.max(1.0)),
+        ("assignment", assignments.score(found)),
     ]
 }
 

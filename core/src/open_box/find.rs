@@ -1,5 +1,6 @@
 use rayon::prelude::*;
 
+use super::assignments::Assignments;
 use super::choose::choose;
 use super::features;
 use super::finish::Finishing;
@@ -7,12 +8,11 @@ use super::flap_scan::ScannedFlap;
 use super::grow::{grow, FoundBox, COARSE_M};
 use super::hanging::{scan_flaps, COARSE_SCAN};
 use super::judgement::{probability, Judgement};
-use super::owners::Owners;
 use super::refused::{Refusal, Refused};
 use super::shells::{outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
-use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, KnownSize};
+use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, FittedBody, KnownSize};
 use crate::perception::clock::Clock;
 use crate::perception::Scene;
 
@@ -37,12 +37,12 @@ pub struct Found {
 pub fn find(
     sight: &Sight,
     scene: &Scene,
+    assignments: &Assignments,
     sizes: &[KnownSize],
     settings: &FitSettings,
     judgement: Option<&Judgement>,
 ) -> Found {
     let mut clock = Clock::start();
-    let owners = Owners::new(scene, sight.points.len());
     let mut shells = shells(sight, scene);
     clock.lap("proposals");
     // Each by itself, in their order: the same bits on any number of threads.
@@ -54,16 +54,23 @@ pub fn find(
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
     clock.lap("flap_scans");
     let judged = |one: &FoundBox| {
-        let odds = |judgement: &Judgement| judgement.of_box(&features::of_box(sight, &owners, one)).0;
+        let odds = |judgement: &Judgement| judgement.of_box(&features::of_box(sight, assignments, one)).0;
         judgement.map_or(1.0, |judgement| probability(odds(judgement)))
     };
     let weighed = |one: FoundBox| FoundBox { probability: judged(&one), size: best_match(&one.solution, sizes), ..one };
-    let rivals = best_of_rivals(&shells);
-    let found = rivals.into_par_iter().filter_map(|shell| grow(sight, shell, settings)).map(weighed).collect();
+    let of_shells = best_of_rivals(&shells).into_par_iter().map(|shell| (body_of(&shell.proposal), shell.flaps));
+    let of_assignments = assignments.bodies.par_iter().map(|body| {
+        let input_from_object = sight.input_from_level.inverse() * body.input_from_object;
+        let body = FittedBody { input_from_object, ..body.clone() };
+        let flaps = scan_flaps(sight, &body, COARSE_M, COARSE_SCAN);
+        (body, flaps)
+    });
+    let rivals = of_shells.chain(of_assignments);
+    let found = rivals.filter_map(|(body, flaps)| grow(sight, &body, &flaps, settings)).map(weighed).collect();
     let chosen = choose(found, sight.width);
     clock.lap("rival_fits");
     let bodies: Vec<_> = chosen.iter().map(|chosen| chosen.one.solution.body.clone()).collect();
-    let finishing = Finishing { sight, owners: &owners, sizes, settings, judgement };
+    let finishing = Finishing { sight, assignments, sizes, settings, judgement };
     let ended: Vec<_> = chosen.into_par_iter().map(|chosen| finishing.best(chosen)).collect();
     clock.lap("last_fits");
     let (mut boxes, mut refused) = (Vec::new(), Vec::new());

@@ -1,5 +1,6 @@
 //! Boxes that have won, fitted to all of their readings, again and again while more is held.
 
+use super::assignments::Assignments;
 use super::choose::Chosen;
 use super::crease::with_creases;
 use super::evidence::{Evidence, Sheet};
@@ -10,7 +11,6 @@ use super::hanging::{scan_flaps, scan_hidden_flaps, scan_tucks, with_flaps, with
 use super::judgement::{probability, Judgement};
 use super::label::label;
 use super::labels::{Labels, Present};
-use super::owners::Owners;
 use super::refit::refit;
 use super::sight::Sight;
 use super::sure::drop_unsure;
@@ -19,7 +19,7 @@ use crate::fit::{canonical_turn, share_of_score, with_known_size, FitSettings, K
 /// What boxes are finished by.
 pub struct Finishing<'a> {
     pub sight: &'a Sight<'a>,
-    pub owners: &'a Owners,
+    pub assignments: &'a Assignments<'a>,
     pub sizes: &'a [KnownSize],
     pub settings: &'a FitSettings,
     pub judgement: Option<&'a Judgement>,
@@ -69,10 +69,10 @@ impl Finishing<'_> {
         sound(&solution.body)?;
         let found = if size.is_some() { weigh(sight, solution, found.present, 1) } else { found };
         let mut out = FoundBox { size, of_fewer, ..found };
-        out.features = features::of_box(sight, self.owners, &out);
+        out.features = features::of_box(sight, self.assignments, &out);
         let of = |(role, evidence): &(Role, Evidence)| {
             let points = out.labels.of(*role);
-            (!points.is_empty()).then(|| (*role, features::of_part(sight, self.owners, &out, *role, points, evidence)))
+            (!points.is_empty()).then(|| (*role, features::of_part(sight, &self.assignments.owners, &out, *role, points, evidence)))
         };
         out.part_features = out.evidence.iter().filter_map(of).collect();
         Ok(out)

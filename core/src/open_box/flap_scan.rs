@@ -136,11 +136,6 @@ fn columns(hinge: &HingeLine, count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |i| half * ((2 * i + 1) as f64 / count as f64 - 1.0))
 }
 
-/// All of a board that is seen from its edge lies on one line of the image, and what is met there may be its hinge alone. Where
-/// hinges are hidden readings count by how much of the image they stand for, as seen so far from the hinge, and at least by so much.
-const SEEN_AT_M: f64 = 0.03;
-const LEAST_SEEN: f64 = 0.06;
-
 fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -> f64 {
     let (way, normal) = hinge.directions(angle);
     let mut score = 0.0;
@@ -154,11 +149,7 @@ fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -
             };
         }
     }
-    if !range.over_hidden {
-        return score;
-    }
-    let ray = hinge.middle + way * SEEN_AT_M - sight.eye;
-    score * (normal.dot(&ray).abs() / ray.norm()).max(LEAST_SEEN)
+    score
 }
 
 /// A board followed from the hinge outwards, its angle and curl fitted to what is met on the way.

@@ -2,15 +2,14 @@
 
 use super::evidence::{Evidence, Sheet};
 use super::features::Features;
+use super::flap_scan::ScannedFlap;
 use super::hanging::{scan_flaps, with_flaps, FINE_SCAN};
 use super::judgement::Judgement;
 use super::label::label;
 use super::labels::{roles, Labels, Present};
 use super::refit::refit;
 use super::settle::is_sunk;
-use super::shells::Shell;
 use super::sight::Sight;
-use super::start::body_of;
 use super::sure::{drop_unsure, long_enough};
 use crate::fit::{check, layout, FitSettings, FittedBody, NotFitted, Role, SizeMatch, Solution};
 
@@ -53,10 +52,15 @@ pub const FINE_M: f64 = 0.004;
 /// Every so many columns and rows are asked while boxes still compete.
 pub const COARSE_STRIDE: usize = 3;
 
-/// From a shell to a box fitted to some of its readings.
-pub fn grow(sight: &Sight, shell: &Shell, settings: &FitSettings) -> Option<FoundBox> {
+/// From a body with its scanned flaps to a box fitted to some of its readings.
+pub fn grow(
+    sight: &Sight,
+    body: &FittedBody,
+    flaps: &[Option<ScannedFlap>; 4],
+    settings: &FitSettings,
+) -> Option<FoundBox> {
     let settings = competing(settings);
-    let (body, present) = with_flaps(&body_of(&shell.proposal), &shell.flaps);
+    let (body, present) = with_flaps(body, flaps);
     let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
     sound(&solution.body).ok()?;

@@ -2,6 +2,7 @@
 //! "Whole boxes").
 
 mod answer;
+mod assignments;
 mod choose;
 mod closed;
 mod crease;
@@ -45,6 +46,7 @@ mod views;
 mod yaw;
 
 pub use answer::answer;
+pub use assignments::Assignments;
 pub use closed::may_be_closed;
 pub use features::Features;
 pub use find::{find, Found};

@@ -25,12 +25,7 @@ impl Owners {
     /// Of the segments that these readings belong to, the share that they hold, each standing for `each`; weighed by
     /// readings, 1 where they belong to none.
     pub fn held<'a>(&self, readings: impl Iterator<Item = &'a u32>, each: u32) -> f64 {
-        let mut counts = vec![0_u32; self.readings_of.len()];
-        for &reading in readings {
-            if let Some(count) = counts.get_mut(usize::from(self.segment_of[reading as usize])) {
-                *count += each;
-            }
-        }
+        let counts = self.counts(readings, each);
         let total: u32 = counts.iter().sum();
         let share =
             |(count, all): (&u32, &u32)| f64::from(*count) * f64::from((*count).min(*all)) / f64::from((*all).max(1));
@@ -40,6 +35,24 @@ impl Owners {
         } else {
             held / f64::from(total)
         }
+    }
+
+    /// The segment that most of these readings belong to, the first of equals, and how many do.
+    pub fn most_held<'a>(&self, readings: impl Iterator<Item = &'a u32>) -> Option<(usize, u32)> {
+        let counts = self.counts(readings, 1);
+        let most = counts.iter().copied().max().filter(|&count| count > 0)?;
+        Some((counts.iter().position(|&count| count == most)?, most))
+    }
+
+    /// For each segment how many of these readings belong to it, each standing for `each`.
+    fn counts<'a>(&self, readings: impl Iterator<Item = &'a u32>, each: u32) -> Vec<u32> {
+        let mut counts = vec![0_u32; self.readings_of.len()];
+        for &reading in readings {
+            if let Some(count) = counts.get_mut(usize::from(self.segment_of[reading as usize])) {
+                *count += each;
+            }
+        }
+        counts
     }
 }
 

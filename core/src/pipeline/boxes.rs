@@ -4,10 +4,11 @@ use std::time::Instant;
 
 use super::{Answer, ObjectFeatures};
 use crate::cloud::CloudView;
+use crate::error::Result;
 use crate::fit::{FitSettings, KnownSize};
 use crate::inference::ObjectModel;
 use crate::model::Template;
-use crate::open_box::{self, open_boxes, FoundBox, Judgement, Kinds, Refusal, Refused, Shape, Sight};
+use crate::open_box::{self, open_boxes, Assignments, FoundBox, Judgement, Kinds, Refusal, Refused, Shape, Sight};
 use crate::perception::readings::Readings;
 use crate::perception::Scene;
 
@@ -33,18 +34,22 @@ pub fn whole_boxes(
     kinds: &Kinds,
     judgement: Option<&Judgement>,
     sizes: &[KnownSize],
-) -> Option<Answer> {
+) -> Result<Option<Answer>> {
     let start = Instant::now();
     let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
-    open_boxes(&templates).next()?;
+    if open_boxes(&templates).next().is_none() {
+        return Ok(None);
+    }
     let telling = Telling { templates: &templates, kinds, judgement, sizes, settings: FitSettings::default() };
-    let sight = Sight::new(cloud, readings, scene)?;
-    let found = open_box::find(&sight, scene, sizes, &telling.settings, judgement);
+    let Some(sight) = Sight::new(cloud, readings, scene) else { return Ok(None) };
+    let assignments = Assignments::new(scene, cloud.points.len(), models)?;
+    let assigned = start.elapsed().as_secs_f64();
+    let found = open_box::find(&sight, scene, &assignments, sizes, &telling.settings, judgement);
     let in_stages: f64 = found.stage_seconds.iter().map(|(_, seconds)| seconds).sum();
     let mut answer = tell_boxes(&found.boxes, &found.refused, &[sight], &telling);
-    answer.stage_seconds = found.stage_seconds;
-    answer.stage_seconds.push(("box_answers", start.elapsed().as_secs_f64() - in_stages));
-    Some(answer)
+    answer.stage_seconds = [vec![("assignments", assigned)], found.stage_seconds].concat();
+    answer.stage_seconds.push(("box_answers", start.elapsed().as_secs_f64() - assigned - in_stages));
+    Ok(Some(answer))
 }
 
 /// The boxes that are sure enough, in the first view's input frame; points are numbered on from view to view.

@@ -11,7 +11,7 @@ use crate::error::{InputError, Result};
 use crate::fit::{size_warnings, FitSettings, KnownSize};
 use crate::inference::ObjectModel;
 use crate::model::Template;
-use crate::open_box::{fuse, open_boxes, Judgement, Kinds, View};
+use crate::open_box::{fuse, open_boxes, Assignments, Judgement, Kinds, View};
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -58,13 +58,16 @@ pub fn infer_views(
         .iter()
         .zip(&settings)
         .zip(&scenes)
-        .map(|((view, settings), scene)| View {
-            cloud: view.cloud,
-            readings: Readings::new(&view.cloud, settings),
-            scene,
-            first_from_view: view.first_from_view,
+        .map(|((view, settings), scene)| {
+            Ok(View {
+                cloud: view.cloud,
+                readings: Readings::new(&view.cloud, settings),
+                scene,
+                assignments: Assignments::new(scene, view.cloud.points.len(), models)?,
+                first_from_view: view.first_from_view,
+            })
         })
-        .collect();
+        .collect::<Result<_>>()?;
     let telling = Telling { templates: &templates, kinds, judgement, sizes, settings: FitSettings::default() };
     let fused = fuse(&frames, sizes, &telling.settings, judgement).map_err(|number| {
         let mend = "frames that are fused are organized clouds (height above 1) with a viewpoint";

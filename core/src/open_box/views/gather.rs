@@ -2,19 +2,19 @@
 
 use std::collections::BTreeMap;
 
+use super::super::assignments::Assignments;
 use super::super::evidence::Evidence;
 use super::super::features::{self, Features};
 use super::super::grow::{weigh, FoundBox};
 use super::super::judgement::{probability, Judgement};
 use super::super::labels::{roles, Labels, Present};
-use super::super::owners::Owners;
 use super::super::sight::Sight;
 use crate::fit::{Role, SizeMatch, Solution};
 
 /// All views, in one level frame.
 pub struct Views<'a> {
     pub sights: &'a [Sight<'a>],
-    pub owners: Vec<Owners>,
+    pub assignments: Vec<&'a Assignments<'a>>,
     pub judgement: Option<&'a Judgement>,
 }
 
@@ -57,8 +57,8 @@ impl Views<'_> {
 
     /// The mean over the views, each counted by its readings on the box.
     fn box_features(&self, seen: &[FoundBox]) -> Features {
-        let each = seen.iter().zip(self.sights).zip(&self.owners);
-        let each = each.map(|((one, sight), owners)| (readings_on(one), features::of_box(sight, owners, one)));
+        let each = seen.iter().zip(self.sights).zip(&self.assignments);
+        let each = each.map(|((one, sight), its)| (readings_on(one), features::of_box(sight, its, one)));
         let each: Vec<(f64, Features)> = each.collect();
         let total: f64 = each.iter().map(|(readings, _)| readings).sum::<f64>().max(1.0);
         let mut sums: BTreeMap<&str, f64> = BTreeMap::new();
@@ -76,7 +76,7 @@ impl Views<'_> {
             let points = seen[best].labels.of(*role);
             let own = seen[best].evidence.iter().find(|(r, _)| r == role).map(|(_, evidence)| *evidence)?;
             let judged = Evidence { through: own.met * all.through / all.met.max(1.0), ..own };
-            let (sight, owners) = (&self.sights[best], &self.owners[best]);
+            let (sight, owners) = (&self.sights[best], &self.assignments[best].owners);
             (!points.is_empty()).then(|| (*role, features::of_part(sight, owners, &seen[best], *role, points, &judged)))
         };
         evidence.iter().filter_map(of).collect()

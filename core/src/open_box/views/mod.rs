@@ -10,11 +10,11 @@ mod places;
 
 use nalgebra::Isometry3;
 
+use super::assignments::Assignments;
 use super::choose::choose;
 use super::find::find;
 use super::grow::FoundBox;
 use super::judgement::Judgement;
-use super::owners::Owners;
 use super::refused::{Refusal, Refused};
 use super::sight::Sight;
 use crate::cloud::CloudView;
@@ -31,6 +31,7 @@ pub struct View<'a> {
     pub cloud: CloudView<'a>,
     pub readings: Readings<'a>,
     pub scene: &'a Scene,
+    pub assignments: Assignments<'a>,
     pub first_from_view: Isometry3<f64>,
 }
 
@@ -61,7 +62,7 @@ pub fn fuse<'a>(
         .collect::<Result<_, _>>()?;
     let (mut found, mut refused) = (Vec::new(), Vec::new());
     for (sight, view) in own.iter().zip(views) {
-        let of_view = find(sight, view.scene, sizes, settings, judgement);
+        let of_view = find(sight, view.scene, &view.assignments, sizes, settings, judgement);
         found.push(of_view.boxes);
         refused.push(of_view.refused);
     }
@@ -84,8 +85,8 @@ pub fn fuse<'a>(
     }
     let groups = groups(sightings);
     let (sights, warnings) = places::bettered(views, sights, &groups, settings).ok_or(0_usize)?;
-    let owners = views.iter().map(|view| Owners::new(view.scene, view.cloud.points.len())).collect();
-    let all = Views { sights: &sights, owners, judgement };
+    let assignments = views.iter().map(|view| &view.assignments).collect();
+    let all = Views { sights: &sights, assignments, judgement };
     let (mut fitted, mut refused) = (Vec::new(), Vec::new());
     for group in &groups {
         match joint::fit_group(&all, group, sizes, settings) {
