@@ -1,6 +1,7 @@
 //! Which of the fitted boxes stand in the scene: those that together hold most readings, none of them another's.
 
 use super::grow::FoundBox;
+use super::same::is_same;
 use super::shells::LEAST_SCORE;
 use crate::fit::share_of_score;
 
@@ -35,8 +36,14 @@ pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<Chosen> {
             && chosen.iter().all(|&one| excludes(one, other) == (one == number))
     };
     let instead = |number: usize| {
-        let others = (0..found.len()).filter(|&other| takes_place(other, number)).take(INSTEAD);
-        others.map(|other| found[other].clone()).collect()
+        let mut kept: Vec<usize> = Vec::new();
+        for other in (0..found.len()).filter(|&other| takes_place(other, number)) {
+            let is_new = std::iter::once(&number).chain(&kept).all(|&one| !is_same(&found[one], &found[other]));
+            if is_new && kept.len() < INSTEAD {
+                kept.push(other);
+            }
+        }
+        kept.into_iter().map(|other| found[other].clone()).collect()
     };
     chosen.iter().map(|&number| Chosen { one: found[number].clone(), instead: instead(number) }).collect()
 }

@@ -31,6 +31,7 @@ mod refit;
 mod refused;
 mod rim_lines;
 mod rims;
+mod same;
 mod settle;
 mod shape;
 mod shell;
