@@ -1,4 +1,4 @@
-//! The paper's way through: from a cloud to articulated objects in one call.
+//! From a cloud to articulated objects in one call, by each of the methods.
 
 mod boxes;
 mod fitted;
@@ -35,7 +35,8 @@ pub enum Bodies<'a> {
     Fitted(&'a CloudView<'a>, Option<&'a Judgement>, &'a [KnownSize]),
 }
 
-const NO_POSE: &str = "fewer than two sides were seen, so it has no pose, no hinges and no URDF";
+const TWO_SIDES: &str = "fewer than two sides were seen";
+const NO_POSE: &str = "so it has no pose, no hinges and no URDF";
 const MORE: &str = "raise max_nodes";
 
 /// The objects of a scene, best first, and which of their parts each point belongs to.
@@ -189,15 +190,16 @@ pub fn describe(
         let (mut built, mut assignment) = build_object(template, weights, scene, set, object);
         let name = format!("object {} ({})", answer.objects.len(), template.name);
         if built.pose.is_none() && template.body != Body::Free {
-            answer.warnings.push(format!("{name}: {NO_POSE}"));
+            match bodies {
+                Bodies::Fitted(..) => answer.refused.push(format!("no object of {}: {TWO_SIDES}", template.name)),
+                Bodies::Rectangles => answer.warnings.push(format!("{name}: {TWO_SIDES}, {NO_POSE}")),
+            }
         } else if let (Bodies::Fitted(cloud, _, sizes), Body::OpenBox(_)) = (bodies, &template.body) {
             let start = Instant::now();
             let (of, settings) = ((set, &assignment), FitSettings::default());
             match fit_object(&built, template, scene, of, cloud, sizes, &settings) {
                 Ok(fitted) => (built, assignment) = fitted,
-                Err(reason) => {
-                    answer.warnings.push(format!("{name}: its body is that of its rectangles, not fitted: {reason}"))
-                }
+                Err(reason) => answer.refused.push(format!("no object of {}: {reason}", template.name)),
             }
             fit_seconds += start.elapsed().as_secs_f64();
         }

@@ -25,7 +25,7 @@ pub fn fill(
 ) {
     let body = &solution.body;
     let (length, width, height) = (body.get(LENGTH), body.get(WIDTH), body.get(HEIGHT));
-    let board = body.get(THICKNESS).max(0.0);
+    let board = body.board_m();
     // Both pairs of walls stand a board farther out, square to themselves.
     let grown = board / body.get(RACK).cos();
     object.dimensions = Some([length, width, height]);
@@ -55,17 +55,18 @@ fn parameters(
     settings: &FitSettings,
 ) -> BTreeMap<String, ParameterAnswer> {
     let mut names = shape_names();
-    for &(part, role) in roles.iter().filter(|(part, _)| seen[*part]) {
+    for &(_, role) in roles.iter().filter(|(part, _)| seen[*part]) {
         match role {
             Role::Flap(k) => names.extend(flap_names(k)),
-            Role::Tuck(k) if seen[part] => names.extend(tuck_names(k)),
+            Role::Tuck(k) => names.extend(tuck_names(k)),
             _ => {}
         }
     }
     let answer = |place: usize| {
         let scale = if is_bounded(place, roles, seen) { settings.seen_scale } else { settings.unseen_scale };
         let sigma = solution.covariance[(place, place)].sqrt() * scale.dimension;
-        ParameterAnswer { value: solution.body.get(place), sigma: Some(sigma) }
+        let value = if place == THICKNESS { solution.body.board_m() } else { solution.body.get(place) };
+        ParameterAnswer { value, sigma: Some(sigma) }
     };
     names.into_iter().map(|(place, name)| (name, answer(place))).collect()
 }

@@ -18,6 +18,11 @@ impl FittedBody {
         self.numbers[place]
     }
 
+    /// Thickness of the board as it is told: where walls are seen from one side alone, noise may make it negative.
+    pub fn board_m(&self) -> f64 {
+        self.get(layout::THICKNESS).max(0.0)
+    }
+
     /// The body moved by `step`: the pose by a turn and a shift in the object's frame, the shape by addition (eq. 74).
     pub fn moved(&self, step: &Parameters) -> Self {
         let turn = UnitQuaternion::from_scaled_axis(Vec3::new(step[0], step[1], step[2]));

@@ -23,7 +23,7 @@ const MATCH_SIGMA_M: f64 = 0.004;
 const MOST_CHI2: f64 = 16.27;
 /// A box of no given size keeps this share of its score among its rivals.
 const SHARE_OF_OTHERS: f64 = 0.8;
-/// Boxes smaller or larger than this are not looked for: the unit is wrong.
+/// No length of a box is less or more than this: the unit is wrong.
 const SIZES_M: [f64; 2] = [0.01, 3.0];
 
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 0, 1], [1, 2, 0], [2, 1, 0]];
@@ -61,7 +61,7 @@ impl SizeMatch {
 
 /// Length, width and height over the boards, m.
 pub fn outer_m(body: &FittedBody) -> [f64; 3] {
-    let board = body.get(THICKNESS);
+    let board = body.board_m();
     [body.get(LENGTH) + board, body.get(WIDTH) + board, body.get(HEIGHT)]
 }
 

@@ -7,16 +7,31 @@ pub fn size_warnings(objects: &[ObjectAnswer], sizes: &[KnownSize]) -> Vec<Strin
     if sizes.is_empty() {
         return Vec::new();
     }
-    if objects.iter().all(|object| object.size.is_none()) {
-        let what = match sizes {
-            [size] => format!("the size {} ({})", size.name, millimetres(&size.outer_m)),
-            _ => format!("any of the {} sizes", sizes.len()),
-        };
-        let seen = if objects.is_empty() { ": none was found" } else { "" };
-        let head = format!("no box in view has {what}{seen}");
-        return std::iter::once(head).chain(strangers(objects, sizes)).collect();
+    let has = |size: &KnownSize| objects.iter().flat_map(|object| &object.size).any(|found| found.name == size.name);
+    let seen = if objects.is_empty() { ": none was found" } else { "" };
+    let unmet = |what: String| format!("no box in view has {what}{seen}");
+    let mut out: Vec<String> = Vec::new();
+    if sizes.len() <= SHORT_LIST {
+        out.extend(sizes.iter().filter(|size| !has(size)).map(|size| unmet(format!("the size {}", named(size)))));
+    } else if !sizes.iter().any(has) {
+        out.push(unmet(format!("any of the {} sizes", sizes.len())));
     }
-    strangers(objects, sizes).collect()
+    out.extend(strangers(objects, sizes));
+    out
+}
+
+/// Of so many sizes each that no box has is told.
+const SHORT_LIST: usize = 4;
+
+/// By its name, and its lengths where the name does not say them.
+fn named(size: &KnownSize) -> String {
+    let lengths = millimetres(&size.outer_m);
+    let letters = |text: &str| text.chars().filter(|c| !c.is_whitespace()).collect::<String>();
+    if letters(&size.name) == letters(&lengths) {
+        size.name.clone()
+    } else {
+        format!("{} ({lengths})", size.name)
+    }
 }
 
 /// Boxes of no given size, and what comes nearest to them.

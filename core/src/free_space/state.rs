@@ -30,6 +30,18 @@ impl PartState {
         let seen = there * (looked.met / SEEN_READINGS).min(1.0);
         Self { seen, hidden: there - seen, absent: 1.0 - there }
     }
+
+    /// Of a part that is told as seen with that probability: the rays share out the rest.
+    pub fn seen_with(looked: &Looked, probability: f64) -> Self {
+        let otherwise = Self::unseen(looked);
+        let rest = 1.0 - probability;
+        Self { seen: probability, hidden: rest * otherwise.hidden, absent: rest * otherwise.absent }
+    }
+
+    /// Of a part that nothing is told to be: readings that it would meet belong to something else, and say nothing.
+    pub fn unseen(looked: &Looked) -> Self {
+        Self::of(&Looked { met: 0.0, ..*looked })
+    }
 }
 
 #[cfg(test)]
@@ -46,6 +58,12 @@ mod tests {
         assert!(state(60.0, 900.0, 100.0).absent > 0.99);
         let unseen = state(0.0, 0.0, 2000.0);
         assert!((unseen.hidden - PRIOR).abs() < 1e-12 && unseen.seen == 0.0);
+        for probability in [0.0, 0.5, 0.93, 1.0] {
+            let looked = Looked { met: 500.0, through: 90.0, hidden: 4000.0, ..Looked::default() };
+            let told = PartState::seen_with(&looked, probability);
+            assert!((told.seen + told.hidden + told.absent - 1.0).abs() < 1e-12 && told.seen == probability);
+            assert_eq!(PartState::unseen(&looked).seen, 0.0);
+        }
         for s in [state(10.0, 10.0, 10.0), state(0.0, 0.0, 0.0), state(1e6, 1e6, 0.0)] {
             assert!((s.seen + s.hidden + s.absent - 1.0).abs() < 1e-12 && s.absent >= 0.0);
         }

@@ -31,12 +31,12 @@ pub fn answer(
     let mut readings = Vec::new();
     for &(part, role) in &roles {
         let points = found.labels.of(role);
-        parts[part].probability = judgement.and_then(|judgement| found.part_probability(role, judgement));
         if points.is_empty() || judgement.is_some_and(|judgement| !found.is_probable(role, judgement)) {
             continue;
         }
         seen[part] = true;
         parts[part].points = points.len();
+        parts[part].probability = judgement.and_then(|judgement| found.part_probability(role, judgement));
         readings.push((part, points.to_vec()));
     }
     let input_from_level = sights.first()?.input_from_level;
@@ -48,6 +48,7 @@ pub fn answer(
         if seen[tuck] && !seen[flap] {
             seen[tuck] = false;
             parts[tuck].points = 0;
+            parts[tuck].probability = None;
             readings.retain(|(part, _)| *part != tuck);
         }
     }
@@ -57,7 +58,7 @@ pub fn answer(
         template_probability,
         score: judged.as_ref().map_or(found.score, |(log_odds, _)| *log_odds),
         probability: judged.as_ref().map(|(log_odds, _)| probability(*log_odds)),
-        inference: InferenceAnswer::new(f64::INFINITY, 0, None),
+        inference: InferenceAnswer::new(f64::INFINITY, found.rivals, None),
         sums: None,
         score_terms: judged.map_or_else(Vec::new, |(_, terms)| terms.into_iter().map(term).collect()),
         dimensions: None,
@@ -76,9 +77,12 @@ pub fn answer(
         let lean = wall_lean(points, &found.solution.body, k, settings);
         object.parameters.extend(lean.map(|lean| (lean_name(k), lean)));
     }
-    for &(part, role) in &roles {
-        let state = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, e)| PartState::of(&e.looked()));
-        object.parts[part].state = state;
+    for &(part, role) in roles.iter().filter(|(part, _)| seen[*part]) {
+        let looked = found.evidence.iter().find(|(r, _)| *r == role).map(|(_, evidence)| evidence.looked());
+        object.parts[part].state = looked.map(|looked| match object.parts[part].probability {
+            Some(probability) => PartState::seen_with(&looked, probability),
+            None => PartState::of(&looked),
+        });
     }
     let unseen: Vec<Role> = roles.iter().filter(|(part, _)| !seen[*part]).map(|(_, role)| *role).collect();
     for told in unseen_parts(found, sights, &unseen) {

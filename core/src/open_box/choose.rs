@@ -43,9 +43,16 @@ pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<Chosen> {
                 kept.push(other);
             }
         }
-        kept.into_iter().map(|other| found[other].clone()).collect()
+        kept
     };
-    chosen.iter().map(|&number| Chosen { one: found[number].clone(), instead: instead(number) }).collect()
+    let rivals = |number: usize| (0..found.len()).filter(|&other| other != number && excludes(number, other)).count();
+    let with_rivals = |one: &FoundBox, rivals: usize| FoundBox { rivals, ..one.clone() };
+    let of = |&number: &usize| {
+        let (count, others) = (rivals(number), instead(number));
+        let instead = others.iter().map(|&other| with_rivals(&found[other], count)).collect();
+        Chosen { one: with_rivals(&found[number], count), instead }
+    };
+    chosen.iter().map(of).collect()
 }
 
 /// Sorted, each once.

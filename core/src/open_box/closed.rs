@@ -47,6 +47,7 @@ mod tests {
             score: 1800.0,
             probability: 1.0,
             size: None,
+            rivals: 0,
             of_fewer: None,
             features: vec![("looked_inside", amount(through))],
             part_features: Vec::new(),

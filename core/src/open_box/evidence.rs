@@ -121,7 +121,7 @@ impl<'a> Sheet<'a> {
     pub fn at(&self, u: f64, reach_m: f64) -> (Vec3, Vec3) {
         let bend = self.curl * reach_m;
         let normal = [-self.way[1] - bend * self.way[0], self.way[0] - bend * self.way[1]];
-        let lift = self.curl * reach_m * reach_m / 2.0 + self.face * self.body.get(layout::THICKNESS).max(0.0) / 2.0;
+        let lift = self.curl * reach_m * reach_m / 2.0 + self.face * self.body.board_m() / 2.0;
         let place = |i: usize| self.from[i] + self.way[i] * reach_m + [-self.way[1], self.way[0]][i] * lift;
         let narrowing = 2.0 * self.taper_m * (reach_m / self.length_m.max(1e-3)).min(1.0);
         let point = self.rim.place(self.offset_m + u * (self.width_m - narrowing), place(0), place(1));

@@ -1,10 +1,10 @@
 //! What the judgement of a fitted box, and of each of its panels, rests on.
 
+use super::assignments::Assignments;
 use super::ends::goes_on;
 use super::evidence::{Evidence, Sheet};
 use super::grow::{FoundBox, FINE_M};
 use super::lean::lean;
-use super::assignments::Assignments;
 use super::owners::Owners;
 use super::rims;
 use super::sight::Sight;

@@ -62,17 +62,18 @@ impl Finishing<'_> {
 
     /// With its tuck flaps, fitted to all of its readings; it takes the size that it matches, if any.
     fn finish(&self, found: FoundBox) -> Result<FoundBox, NotFitted> {
-        let (sight, settings) = (self.sight, self.settings);
+        let (sight, settings, rivals) = (self.sight, self.settings, found.rivals);
         let (solution, present, of_fewer) = fit_to_all(sight, &found, settings)?;
         let found = look_again(sight, weigh(sight, solution, present, 1), settings);
         let (solution, size) = with_known_size(found.solution.clone(), self.sizes, settings.seen_scale.dimension);
         sound(&solution.body)?;
         let found = if size.is_some() { weigh(sight, solution, found.present, 1) } else { found };
-        let mut out = FoundBox { size, of_fewer, ..found };
+        let mut out = FoundBox { size, of_fewer, rivals, ..found };
         out.features = features::of_box(sight, self.assignments, &out);
         let of = |(role, evidence): &(Role, Evidence)| {
             let points = out.labels.of(*role);
-            (!points.is_empty()).then(|| (*role, features::of_part(sight, &self.assignments.owners, &out, *role, points, evidence)))
+            (!points.is_empty())
+                .then(|| (*role, features::of_part(sight, &self.assignments.owners, &out, *role, points, evidence)))
         };
         out.part_features = out.evidence.iter().filter_map(of).collect();
         Ok(out)

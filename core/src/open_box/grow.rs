@@ -25,6 +25,8 @@ pub struct FoundBox {
     pub probability: f64,
     /// The given size that comes nearest; of a finished box, the one that it has.
     pub size: Option<SizeMatch>,
+    /// Other fitted boxes that want its readings.
+    pub rivals: usize,
     /// Why the fit to all of its readings did not end, where its body is that of fewer.
     pub of_fewer: Option<NotFitted>,
     pub features: Features,
@@ -117,6 +119,7 @@ pub fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize)
         score,
         probability: 1.0,
         size: None,
+        rivals: 0,
         of_fewer: None,
         features: Vec::new(),
         part_features: Vec::new(),

@@ -7,8 +7,9 @@ use super::labels::Present;
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Role};
 
-/// Pushed a little into the box, to hanging along its side.
-const FLAP_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
+/// Hanging into the box to hanging along its side; while boxes compete no farther in than contents under it push it.
+const FLAP_ANGLES_RAD: [f64; 2] = [-1.4, 4.6];
+const LEAST_COMPETING_RAD: f64 = -0.25;
 
 /// No flap is longer than the box is across, but for this share and more.
 const LONGEST_SHARE: f64 = 1.06;
@@ -27,7 +28,9 @@ pub fn scan_flaps(
 ) -> [Option<ScannedFlap>; 4] {
     std::array::from_fn(|k| {
         let range = ScanRange { peaks, columns, ..flap_range(body, k, model_m) };
-        scan(sight, &HingeLine::of_side(body, k), &range).filter(is_flap)
+        let [least, most] = range.angles_rad;
+        let least = if [peaks, columns] == COARSE_SCAN { LEAST_COMPETING_RAD } else { least };
+        scan(sight, &HingeLine::of_side(body, k), &ScanRange { angles_rad: [least, most], ..range }).filter(is_flap)
     })
 }
 

@@ -4,7 +4,7 @@ use super::grow::FoundBox;
 use super::labels::roles;
 use super::next_view::Surroundings;
 use super::sight::Sight;
-use super::unseen::unseen_flap;
+use super::unseen::{unseen_flap, unseen_tuck};
 use crate::fit::{layout, FittedBody, Role};
 use crate::free_space::PartState;
 use crate::geometry::Vec3;
@@ -18,24 +18,32 @@ pub struct Unseen {
     pub seen_from: Option<Vec3>,
 }
 
-/// Of the parts of a box that no view saw, `unseen`; tuck flaps only where the box has them. The last view is where the camera is.
+/// Of the parts of a box that no view saw, `unseen`, flaps before their tuck flaps. The last view is where the camera is.
 pub fn unseen_parts(found: &FoundBox, sights: &[Sight], unseen: &[Role]) -> Vec<Unseen> {
     let body = &found.solution.body;
     let there: Vec<Role> = roles(&found.present);
     let surroundings = Surroundings::new(sights, body, &there);
     let mut out = Vec::new();
     for &role in unseen {
-        let known =
-            found.evidence.iter().find(|(r, _)| *r == role).map(|(_, evidence)| PartState::of(&evidence.looked()));
-        let (state, poses) = match (known, role) {
-            (Some(state), _) => (state, vec![(body.clone(), 1.0)]),
-            (None, Role::Flap(k)) => {
+        let (state, poses) = match role {
+            Role::Base | Role::Side(_) => {
+                let Some((_, evidence)) = found.evidence.iter().find(|(r, _)| *r == role) else { continue };
+                (PartState::unseen(&evidence.looked()), vec![(body.clone(), 1.0)])
+            }
+            Role::Flap(k) => {
                 let flap = unseen_flap(sights, body, k, usual_length_m(body, found.present.flaps));
                 (flap.state, flap.poses)
             }
-            (None, _) => continue,
+            Role::Tuck(k) => match out.iter().find(|other: &&Unseen| other.role == Role::Flap(k)) {
+                // It is where its flap is, and that is unknown.
+                Some(flap) => (flap.state, Vec::new()),
+                None => {
+                    let tuck = unseen_tuck(sights, body, k);
+                    (tuck.state, tuck.poses)
+                }
+            },
         };
-        let is_hidden = state.hidden > state.seen && state.hidden > state.absent;
+        let is_hidden = !poses.is_empty() && state.hidden > state.absent;
         let seen_from = surroundings.as_ref().filter(|_| is_hidden).and_then(|s| s.seen_from(role, &poses));
         out.push(Unseen { role, state, seen_from });
     }

@@ -49,7 +49,7 @@ impl Shape {
         let flap_m = |k: usize| body.get(layout::flap(k) + layout::FLAP_LENGTH);
         Self {
             dimensions_m: [layout::LENGTH, layout::WIDTH, layout::HEIGHT].map(|place| body.get(place)),
-            thickness_m: body.get(layout::THICKNESS).max(0.0),
+            thickness_m: body.board_m(),
             flaps_m: std::array::from_fn(|k| seen(Role::Flap(k)).then(|| flap_m(k))),
             flaps_rad: std::array::from_fn(|k| body.get(layout::flap(k) + layout::FLAP_ANGLE)),
             has_tuck: std::array::from_fn(|k| seen(Role::Tuck(k))),

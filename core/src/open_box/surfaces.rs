@@ -77,7 +77,7 @@ impl Surface {
             Role::Side(_) => -at.inward,
             _ => cos * (at.above - from[1]) - sin * (at.inward - from[0]),
         };
-        let half_board_m = body.get(layout::THICKNESS).max(0.0) / 2.0;
+        let half_board_m = body.board_m() / 2.0;
         let (point, bow_m) = match role {
             Role::Base => (Vec3::z() * (2.0 * half_board_m), 0.0),
             Role::Side(_) => (rim.place(0.0, 0.0, 0.0), body.get(layout::bulge(k)).abs()),
@@ -92,7 +92,7 @@ impl Surface {
             edge_half_m: body.edge_m(k) / 2.0,
             height_m: body.get(layout::HEIGHT),
             half_board_m,
-            board_m: body.get(layout::THICKNESS).max(0.0),
+            board_m: body.board_m(),
             face: height.signum(),
             normal: turn * normal,
             bulge_m: body.get(layout::bulge(k)),

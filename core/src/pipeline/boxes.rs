@@ -12,8 +12,9 @@ use crate::open_box::{self, open_boxes, Assignments, FoundBox, Judgement, Kinds,
 use crate::perception::readings::Readings;
 use crate::perception::Scene;
 
+const NOTHING_HELD: &str = "no object: no box that the segments propose holds enough readings of the depth image";
 /// An object has at least so many panels with enough readings.
-const LEAST_PANELS: usize = 3;
+pub const LEAST_PANELS: usize = 3;
 
 /// How fitted boxes become objects: templates that compete, what tells them apart, what is known of boxes.
 #[derive(Clone, Copy)]
@@ -47,6 +48,9 @@ pub fn whole_boxes(
     let found = open_box::find(&sight, scene, &assignments, sizes, &telling.settings, judgement);
     let in_stages: f64 = found.stage_seconds.iter().map(|(_, seconds)| seconds).sum();
     let mut answer = tell_boxes(&found.boxes, &found.refused, &[sight], &telling);
+    if answer.objects.is_empty() && answer.refused.is_empty() {
+        answer.refused.push(NOTHING_HELD.to_owned());
+    }
     answer.stage_seconds = [vec![("assignments", assigned)], found.stage_seconds].concat();
     answer.stage_seconds.push(("box_answers", start.elapsed().as_secs_f64() - assigned - in_stages));
     Ok(Some(answer))

@@ -1,16 +1,19 @@
 //! Fitted boxes of clouds whose rays nobody can ask: by exact assignments of the segments.
 
+use super::boxes::LEAST_PANELS;
 use super::{understand, Answer, Bodies};
 use crate::body::ObjectAnswer;
 use crate::error::Result;
 use crate::inference::{ObjectModel, SearchSettings};
 use crate::model::{Body, OpenBoxRoles, Template};
-use crate::open_box::{recast, Kinds, Shape};
+use crate::open_box::{recast, Kinds, Refusal, Shape};
 use crate::perception::Scene;
 
 const NO_FREE_SPACE: &str =
     "free space was not used: the cloud has no image grid or no viewpoint, so what hides a part and \
                              what is not there look alike, and no part's state is told";
+
+const NOTHING_SCORES: &str = "no object: no assignment of the segments to a template's parts scores enough";
 
 /// As `understand`; the template of each box is then the most probable of all that were asked for.
 ///
@@ -39,6 +42,7 @@ pub fn fitted_boxes(
         }
     }
     name_kinds(&mut answer, models, kinds);
+    drop_unfitted(&mut answer, models);
     if answer.objects.iter().any(|object| Shape::of_answer(object).is_some()) {
         answer.warnings.push(NO_FREE_SPACE.to_owned());
     }
@@ -61,6 +65,26 @@ fn unfitted(answer: &Answer, models: &[ObjectModel]) -> Vec<String> {
 
 fn fitted_count(answer: &Answer) -> usize {
     answer.objects.iter().filter_map(Shape::of_answer).count()
+}
+
+/// Boxes without a fitted body are no objects, nor are those of which too little was seen; why is told among the refused.
+fn drop_unfitted(answer: &mut Answer, models: &[ObjectModel]) {
+    let unfitted = unfitted(answer, models);
+    let mut kept = Vec::new();
+    for (number, object) in answer.objects.iter().enumerate() {
+        let is_fitted = Shape::of_answer(object).is_some();
+        let seen = object.parts.iter().filter(|part| part.observed).count();
+        if is_fitted && seen < LEAST_PANELS {
+            let why = Refusal::FewPanels { seen, least: LEAST_PANELS };
+            answer.refused.push(format!("no object of {}: {why}", object.template));
+        } else if is_fitted || !unfitted.contains(&object.template) {
+            kept.push(number);
+        }
+    }
+    answer.keep(&kept);
+    if answer.objects.is_empty() && answer.refused.is_empty() {
+        answer.refused.push(NOTHING_SCORES.to_owned());
+    }
 }
 
 /// The template of each fitted object is the most probable of all that were asked for, whichever found its segments.
@@ -88,6 +112,19 @@ fn name_kinds(answer: &mut Answer, models: &[ObjectModel], kinds: &Kinds) {
 }
 
 impl Answer {
+    /// The objects of these numbers alone, in their order.
+    fn keep(&mut self, kept: &[usize]) {
+        for (of, part) in self.object_of_point.iter_mut().zip(&mut self.part_of_point) {
+            let place = usize::try_from(*of).ok().and_then(|old| kept.iter().position(|&number| number == old));
+            match place {
+                Some(new) => *of = new as i16,
+                None => (*of, *part) = (-1, -1),
+            }
+        }
+        self.objects = kept.iter().map(|&number| self.objects[number].clone()).collect();
+        self.shapes = kept.iter().map(|&number| self.shapes[number]).collect();
+    }
+
     /// Gives the points of an object to its parts' new numbers, those of a part that is no more to nothing.
     fn renumber_parts(&mut self, object: usize, new_number: &[Option<usize>]) {
         for (of, part) in self.object_of_point.iter_mut().zip(&mut self.part_of_point) {

@@ -74,6 +74,7 @@ pub fn infer_views(
         InputError::new("has no image grid, no viewpoint or no readings").mend(mend).in_source(named(number))
     })?;
     let mut answer = tell_boxes(&fused.found, &fused.refused, &fused.sights, &telling);
+    answer.refused.extend(fused.refused_by_frames);
     answer.warnings.extend(fused.warnings);
     answer.warnings.extend(size_warnings(&answer.objects, sizes));
     answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));

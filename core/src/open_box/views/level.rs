@@ -10,10 +10,11 @@ use crate::geometry::{Plane, Vec3};
 const SAME_TILT_RAD: f64 = 0.035;
 const SAME_HEIGHT_M: f64 = 0.02;
 
-/// first_from_level of the frame that all views are told in: on the mean of the supports that most of them agree on (eq. 98).
+/// first_from_level of the frame that all views are told in: on the mean of the supports that most of them agree on (eq. 98); with it the
+/// numbers of views whose support is another.
 ///
 /// `None` of a first view without an image or a viewpoint. `own` are the views' own level frames.
-pub fn common_level(views: &[View], own: &[Sight], found: &[Vec<FoundBox>]) -> Option<Isometry3<f64>> {
+pub fn common_level(views: &[View], own: &[Sight], found: &[Vec<FoundBox>]) -> Option<(Isometry3<f64>, Vec<usize>)> {
     let first = views.first()?;
     let place = |(number, view): (usize, &View)| -> Vec<Vec3> {
         let first_from_own = view.first_from_view * own[number].input_from_level;
@@ -22,8 +23,8 @@ pub fn common_level(views: &[View], own: &[Sight], found: &[Vec<FoundBox>]) -> O
     };
     let places: Vec<Vec3> = views.iter().enumerate().flat_map(place).collect();
     let middle = places.iter().sum::<Vec3>() / places.len().max(1) as f64;
-    let supports: Vec<Plane> =
-        views.iter().filter_map(|v| Some(moved(&v.scene.support?, &v.first_from_view))).collect();
+    let of_view = |(number, view): (usize, &View)| Some((number, moved(&view.scene.support?, &view.first_from_view)));
+    let (numbers, supports): (Vec<usize>, Vec<Plane>) = views.iter().enumerate().filter_map(of_view).unzip();
     let agree = |a: &Plane, b: &Plane| {
         let tilt = a.normal.cross(&b.normal).norm();
         tilt < SAME_TILT_RAD && (a.height_of(&middle) - b.height_of(&middle)).abs() < SAME_HEIGHT_M
@@ -34,9 +35,16 @@ pub fn common_level(views: &[View], own: &[Sight], found: &[Vec<FoundBox>]) -> O
         Some(best) if friends(best) >= friends(one) => Some(best),
         _ => Some(one),
     });
-    let Some(best) = best else { return Some(own.first()?.input_from_level) };
+    let Some(best) = best else { return Some((own.first()?.input_from_level, Vec::new())) };
     let support = mean(supports.iter().filter(|one| agree(best, one)))?;
-    Some(level(&Projection::of(&first.cloud)?, &support.normal, &support))
+    let strange = numbers.iter().zip(&supports).filter(|(_, one)| !agree(best, one)).map(|(number, _)| *number);
+    Some((level(&Projection::of(&first.cloud)?, &support.normal, &support), strange.collect()))
+}
+
+/// A line of a view whose support is another than that of most.
+pub fn told(number: usize, of: usize) -> String {
+    let others = if of == 2 { "that of the other frame" } else { "those of most frames" };
+    format!("frame {}: by its pose the support that it shows lies elsewhere than {others}; check its pose", number + 1)
 }
 
 fn moved(plane: &Plane, to_from_plane: &Isometry3<f64>) -> Plane {

@@ -1,6 +1,7 @@
 //! Several views of one scene, taken from known places: each finds its boxes, and one body is fitted to what all of them see
 //! (docs/maths.md, "Several views").
 
+mod disagree;
 mod flaps;
 mod gather;
 mod joint;
@@ -41,6 +42,8 @@ pub struct Fused<'a> {
     pub found: Vec<FoundBox>,
     /// Boxes of one or more views that no joint fit ended in.
     pub refused: Vec<Refused>,
+    /// What each frame refused by itself, one line each, in its own coordinates.
+    pub refused_by_frames: Vec<String>,
     /// What a user should know, one line each.
     pub warnings: Vec<String>,
 }
@@ -67,9 +70,15 @@ pub fn fuse<'a>(
         refused.push(of_view.refused);
     }
     if views.len() == 1 {
-        return Ok(Fused { sights: own, found: found.remove(0), refused: refused.remove(0), warnings: Vec::new() });
+        let (found, refused) = (found.remove(0), refused.remove(0));
+        return Ok(Fused { sights: own, found, refused, refused_by_frames: Vec::new(), warnings: Vec::new() });
     }
-    let first_from_level = common_level(views, &own, &found).ok_or(0_usize)?;
+    let refused_by_frames = refused.iter().zip(&own).enumerate().flat_map(|(number, (refused, sight))| {
+        refused.iter().map(move |one| format!("frame {}: {}", number + 1, one.line(&sight.input_from_level)))
+    });
+    let refused_by_frames = refused_by_frames.collect();
+    let (first_from_level, strange) = common_level(views, &own, &found).ok_or(0_usize)?;
+    let mut warnings: Vec<String> = strange.into_iter().map(|k| level::told(k, views.len())).collect();
     let sights: Vec<Sight> = views
         .iter()
         .enumerate()
@@ -84,7 +93,9 @@ pub fn fuse<'a>(
         sightings.extend(of_view.into_iter().map(|one| Sighting::new(view, &level_from_own, one, judgement)));
     }
     let groups = groups(sightings);
-    let (sights, warnings) = places::bettered(views, sights, &groups, settings).ok_or(0_usize)?;
+    let (sights, of_places) = places::bettered(views, sights, &groups, settings).ok_or(0_usize)?;
+    warnings.extend(of_places);
+    warnings.extend(disagree::looked_through(&sights, &groups));
     let assignments = views.iter().map(|view| &view.assignments).collect();
     let all = Views { sights: &sights, assignments, judgement };
     let (mut fitted, mut refused) = (Vec::new(), Vec::new());
@@ -97,5 +108,5 @@ pub fn fuse<'a>(
     // All images as one row.
     let points = sights.iter().map(|sight| sight.points.len()).sum();
     let found = choose(fitted, points).into_iter().map(|chosen| chosen.one).collect();
-    Ok(Fused { sights, found, refused, warnings })
+    Ok(Fused { sights, found, refused, refused_by_frames, warnings })
 }
