@@ -113,6 +113,38 @@ fn a_box_of_exact_panels_is_measured() {
 }
 
 #[test]
+fn flaps_that_hang_into_the_box_or_far_down_are_found() {
+    let mut found = 0;
+    for positions in [[120.0, 120.0, -30.0, 120.0], [-20.0, 120.0, 150.0, 120.0], [120.0, -40.0, 120.0, 240.0]] {
+        let answer = understood(&look(&scene(positions)));
+        let object = answer.objects.first().expect("no box");
+        let told: Vec<f64> =
+            object.joints.iter().filter(|j| j.child.starts_with("flap")).map(|j| j.position.to_degrees()).collect();
+        for deg in positions.iter().filter(|deg| **deg < 0.0) {
+            assert!(told.iter().any(|at| (at - deg).abs() < 3.0), "{deg} of {told:?}");
+            found += 1;
+        }
+    }
+    assert_eq!(found, 3);
+}
+
+#[test]
+fn a_box_whose_fit_is_refused_is_no_object() {
+    // Sheared by more than any box's sides are off square; without an image the body is fitted to an assignment.
+    let shear = |p: &Vec3| Vec3::new(p.x + 0.55 * p.y, p.y, p.z);
+    let sheared: Vec<Panel> =
+        scene([150.0, 110.0, 60.0, 200.0]).iter().map(|panel| panel.each_ref().map(shear)).collect();
+    let points: Vec<[f32; 3]> = look(&sheared).into_iter().filter(|p| p[2].is_finite()).collect();
+    let cloud = CloudView { points: &points, width: points.len(), height: 1, viewpoint: Some(Vec3::zeros()) };
+    let (search, bodies) = (SearchSettings::default(), Bodies::Fitted(&cloud, None, &[]));
+    let answer =
+        infer(&cloud, &PerceptionSettings::default(), &[model()], &search, bodies, &Kinds::default()).unwrap().1;
+    assert!(answer.objects.is_empty(), "{:?}", answer.objects[0].dimensions);
+    assert!(answer.part_of_point.iter().all(|part| *part == -1));
+    assert!(answer.refused.iter().any(|line| line.contains("rack")), "{:?}", answer.refused);
+}
+
+#[test]
 fn the_same_readings_give_the_same_box() {
     let points = look(&scene([150.0, 110.0, 60.0, 200.0]));
     let (one, other) = (understood(&points), understood(&points));

@@ -48,7 +48,8 @@ def test_a_catalogue_that_fits_nothing_warns(large: tuple[Path, tuple[float, flo
     answer = boxwright("infer", large[0], "-o", tmp_path / "out", *FITTED, "--catalogue", catalogue)
     assert answer.status == 0
     warnings = load_model(tmp_path / "out/large_0002/model.json").warnings
-    assert warnings[0] == "no box in view has any of the 2 sizes"
+    assert warnings[0] == "no box in view has the size a (90 x 80 x 70 mm)"
+    assert warnings[1] == "no box in view has the size b (90 x 80 x 60 mm)"
     assert all(f"warning: {line}" in answer.err for line in warnings)
 
 

@@ -113,6 +113,33 @@ def test_a_wrong_pose_is_told() -> None:
     assert not any("check its pose" in line for line in fused_of(category, index).model.warnings)
 
 
+def shifted(base_from_camera: np.ndarray, shift_m: tuple[float, float, float]) -> np.ndarray:
+    out = base_from_camera.copy()
+    out[:3, 3] += shift_m
+    return out
+
+
+def test_poses_that_are_wrong_altogether_are_told() -> None:
+    """Swapped, inverted, in another unit, or far off: no frame's box is silently taken for all."""
+    frames = posed(looks_of(*SCENES[0]))
+    places = [frame.base_from_camera for frame in frames]
+    in_another_unit = [shifted(place, tuple(3.0 * place[:3, 3])) for place in places]
+    counted = 0
+    for wrong in (
+        [places[1], places[0], places[2]],
+        [np.linalg.inv(place) for place in places],
+        in_another_unit,
+        [places[0], shifted(places[1], (0.2, 0.1, 0.0)), places[2]],
+    ):
+        moved = [
+            PosedCloud(cloud=frame.cloud, base_from_camera=place) for frame, place in zip(frames, wrong, strict=True)
+        ]
+        warnings = boxwright.infer_frames(moved).model.warnings
+        assert any("check" in line and "pose" in line for line in warnings), (counted, warnings)
+        counted += 1
+    assert counted == 4
+
+
 def test_frames_without_an_image_are_refused_by_number() -> None:
     frames = posed(looks_of(*SCENES[0])[:2])
     flat = Cloud(points=frames[1].cloud.points, width=len(frames[1].cloud.points), height=1, viewpoint=ORIGIN)

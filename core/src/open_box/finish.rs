@@ -7,7 +7,7 @@ use super::evidence::{Evidence, Sheet};
 use super::features;
 use super::flap_scan::ScannedFlap;
 use super::grow::{competing, sound, weigh, FoundBox, COARSE_STRIDE, FINE_M};
-use super::hanging::{scan_flaps, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
+use super::hanging::{scan_flaps, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, LAST_SCAN};
 use super::judgement::{probability, Judgement};
 use super::label::label;
 use super::labels::{Labels, Present};
@@ -113,7 +113,7 @@ fn fit_to_all(
 /// near its edge from one that looks further.
 fn look_again(sight: &Sight, found: FoundBox, settings: &FitSettings) -> FoundBox {
     let (body, present) = (&found.solution.body, found.present);
-    let mut flaps = scan_flaps(sight, body, FINE_M, FINE_SCAN);
+    let mut flaps = scan_flaps(sight, body, FINE_M, LAST_SCAN);
     let fitted_score = |k: usize| {
         let evidence = Sheet::new(body, Role::Flap(k), &sight.eye).look(sight, FINE_M);
         evidence.met - 2.0 * evidence.through

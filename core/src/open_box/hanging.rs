@@ -7,38 +7,42 @@ use super::labels::Present;
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Role};
 
-/// Hanging into the box to hanging along its side; while boxes compete no farther in than contents under it push it.
+/// Hanging into the box to hanging along its side.
 const FLAP_ANGLES_RAD: [f64; 2] = [-1.4, 4.6];
-const LEAST_COMPETING_RAD: f64 = -0.25;
+/// While boxes compete: pushed a little into the box, to hanging down.
+const COMPETING_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
 
 /// No flap is longer than the box is across, but for this share and more.
 const LONGEST_SHARE: f64 = 1.06;
 const LONGER_M: f64 = 0.02;
 
-/// Angles that are followed, and places along the edge: while boxes compete, and of one that is fitted.
-pub const COARSE_SCAN: [usize; 2] = [2, 6];
-pub const FINE_SCAN: [usize; 2] = [4, 12];
+/// How an edge is scanned for its flap.
+#[derive(Debug, Clone, Copy)]
+pub struct FlapScan {
+    angles_rad: [f64; 2],
+    /// Angles that are followed.
+    peaks: usize,
+    /// Places along the edge.
+    columns: usize,
+}
+
+/// Of a proposal, of a body that is fitted and still competes, and of a box that has won.
+pub const COARSE_SCAN: FlapScan = FlapScan { angles_rad: COMPETING_ANGLES_RAD, peaks: 2, columns: 6 };
+pub const FINE_SCAN: FlapScan = FlapScan { angles_rad: COMPETING_ANGLES_RAD, peaks: 4, columns: 12 };
+pub const LAST_SCAN: FlapScan = FlapScan { angles_rad: FLAP_ANGLES_RAD, ..FINE_SCAN };
 
 /// The flap on each of a body's top edges, and none where the readings speak against any.
-pub fn scan_flaps(
-    sight: &Sight,
-    body: &FittedBody,
-    model_m: f64,
-    [peaks, columns]: [usize; 2],
-) -> [Option<ScannedFlap>; 4] {
+pub fn scan_flaps(sight: &Sight, body: &FittedBody, model_m: f64, by: FlapScan) -> [Option<ScannedFlap>; 4] {
     std::array::from_fn(|k| {
-        let range = ScanRange { peaks, columns, ..flap_range(body, k, model_m) };
-        let [least, most] = range.angles_rad;
-        let least = if [peaks, columns] == COARSE_SCAN { LEAST_COMPETING_RAD } else { least };
-        scan(sight, &HingeLine::of_side(body, k), &ScanRange { angles_rad: [least, most], ..range }).filter(is_flap)
+        scan(sight, &HingeLine::of_side(body, k), &flap_range(body, k, model_m, by)).filter(is_flap)
     })
 }
 
-/// Of the flap on side `k`, as a fitted body is scanned.
-fn flap_range(body: &FittedBody, k: usize, model_m: f64) -> ScanRange {
-    let [peaks, columns] = FINE_SCAN;
+/// Of the flap on side `k`.
+fn flap_range(body: &FittedBody, k: usize, model_m: f64, by: FlapScan) -> ScanRange {
+    let FlapScan { angles_rad, peaks, columns } = by;
     let longest_m = LONGEST_SHARE * body.edge_m(k + 1) + LONGER_M;
-    ScanRange { angles_rad: FLAP_ANGLES_RAD, longest_m, model_m, peaks, columns, over_hidden: false }
+    ScanRange { angles_rad, longest_m, model_m, peaks, columns, over_hidden: false }
 }
 
 /// The flaps on those edges that are asked for, looked for beyond what hides them near their hinges.
@@ -49,7 +53,7 @@ pub fn scan_hidden_flaps(
     is_asked: [bool; 4],
 ) -> [Option<ScannedFlap>; 4] {
     std::array::from_fn(|k| {
-        let range = ScanRange { over_hidden: true, ..flap_range(body, k, model_m) };
+        let range = ScanRange { over_hidden: true, ..flap_range(body, k, model_m, LAST_SCAN) };
         let found = is_asked[k].then(|| scan(sight, &HingeLine::of_side(body, k), &range))?;
         found.filter(is_flap)
     })
@@ -117,7 +121,7 @@ fn scan_tuck(sight: &Sight, body: &FittedBody, k: usize, less_m: f64, model_m: f
     let mut shorter = body.clone();
     shorter.numbers[layout::flap(k) + layout::FLAP_LENGTH] = flap_length_m;
     let longest_m = (TUCK_SHARE * flap_length_m).min(MOST_TUCK_M);
-    let [peaks, columns] = FINE_SCAN;
+    let FlapScan { peaks, columns, .. } = FINE_SCAN;
     let range = ScanRange { angles_rad: TUCK_ANGLES_RAD, longest_m, model_m, peaks, columns, over_hidden: false };
     let tuck = scan(sight, &HingeLine::of_flap(&shorter, k), &range).filter(is_flap)?;
     let sheet = Sheet::new(body, Role::Flap(k), &sight.eye);
