@@ -7,8 +7,8 @@ use super::labels::Present;
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Role};
 
-/// Hanging into the box to hanging along its side.
-const FLAP_ANGLES_RAD: [f64; 2] = [-1.4, 4.6];
+/// Hanging into the box to hanging down. Nearer to its side's plane it is what shows of a wall a little higher.
+const FLAP_ANGLES_RAD: [f64; 2] = [-1.05, 4.4];
 /// While boxes compete: pushed a little into the box, to hanging down.
 const COMPETING_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
 
