@@ -19,6 +19,7 @@ from boxwright.perception import chosen
 from boxwright.pipeline import PLANES_OF_METHOD, SEARCH_OF_METHOD, TEMPLATES_OF_METHOD, Inferred
 from boxwright.segmentation import Bounds, inside, support_plane_of, vector
 from boxwright.types import Cloud, FrameSource, KnownSize, Pose, PosedCloud, Source
+from boxwright.types.checks import require_direction
 from boxwright.types.model import Model, Object, Seconds
 
 METHOD = "fitted"
@@ -81,8 +82,8 @@ def infer_frames(
     start = time.perf_counter()
     first_from_frame = [inverse(frames[0].base_from_camera) @ frame.base_from_camera for frame in frames]
     clouds = [
-        (_within(frame.cloud, pose, roi), frame.cloud.width, frame.cloud.height, frame.cloud.viewpoint, pose.tolist())
-        for frame, pose in zip(frames, first_from_frame, strict=True)
+        (_within(k, frame.cloud, pose, roi), *_grid(frame.cloud), frame.cloud.viewpoint, pose.tolist())
+        for k, (frame, pose) in enumerate(zip(frames, first_from_frame, strict=True), start=1)
     ]
     perceptions, answer = _core.infer_frames(
         clouds,
@@ -113,11 +114,18 @@ def infer_frames(
     return Fused(model, labels, tuple(perceptions), answer.shapes, tuple(answer.refused))
 
 
-def _within(cloud: Cloud, first_from_frame: Matrix, roi: Bounds | None) -> NDArray[np.float32]:
+def _grid(cloud: Cloud) -> tuple[int, int]:
+    return cloud.width, cloud.height
+
+
+def _within(number: int, cloud: Cloud, first_from_frame: Matrix, roi: Bounds | None) -> NDArray[np.float32]:
     """A frame's points, those beyond the bounds in the first frame's coordinates being no readings."""
     if roi is None:
         return cloud.points
-    kept = inside(apply(first_from_frame, cloud.points.astype(np.float64)), roi)
+    try:
+        kept = inside(apply(first_from_frame, cloud.points.astype(np.float64)), roi)
+    except ValueError as error:
+        raise ValueError(f"frame {number}: {error}") from None
     return np.where(kept[:, None], cloud.points, np.float32(np.nan))
 
 

@@ -23,6 +23,7 @@ from boxwright.models import (
 from boxwright.perception import chosen
 from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
 from boxwright.types import Cloud, KnownSize
+from boxwright.types.checks import require_direction
 from boxwright.types.model import Model, Object, Seconds
 
 METHODS = ("fitted", "exact", "paper")
@@ -140,6 +141,8 @@ def infer(
         source=source_of(cloud),
         warnings=tuple(perception.warnings + answer.warnings + unused),
         seconds=Seconds(read=read_seconds, stages=perception.stage_seconds | answer.stage_seconds, total=total),
+    if up is not None:
+        require_direction("up", up)
         up=vector(perception.up),
         support_plane=support_plane_of(perception),
         free_space="no viewpoint" if cloud.viewpoint is None else "used" if answer.free_space else "not used",

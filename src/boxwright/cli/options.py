@@ -112,7 +112,7 @@ UpOption = Annotated[
     Triple | None,
     typer.Option(
         "--up",
-        parser=Triple.parse,
+        parser=Triple.parse_direction,
         metavar="X,Y,Z",
         help="Direction away from the floor, input's frame; found from the cloud unless given.",
         rich_help_panel=MODEL,
