@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from boxwright import _core
 from boxwright.io.labels import PointLabels
 from boxwright.kinematics.transforms import Matrix, apply, inverse, quaternion_wxyz
-from boxwright.models import load_judgement, load_kinds, load_object_model, shipped_for
+from boxwright.models import load_judgement, load_kinds
 from boxwright.perception import chosen
-from boxwright.pipeline import PLANES_OF_METHOD, SEARCH_OF_METHOD, TEMPLATES_OF_METHOD, Inferred
+from boxwright.pipeline import PLANES_OF_METHOD, Inferred, load_models
 from boxwright.segmentation import Bounds, inside, support_plane_of, vector
 from boxwright.types import Cloud, FrameSource, KnownSize, Pose, PosedCloud, Source
 from boxwright.types.checks import require_direction
@@ -72,10 +72,10 @@ def infer_frames(
     Raises ValueError where there is no frame, where one has no image grid or viewpoint, and as `infer` does, naming the
     frame, counted from 1.
     """
-    templates = TEMPLATES_OF_METHOD[METHOD] if templates is None else templates
+    models = load_models(METHOD, templates, planes=planes)
     planes = planes or PLANES_OF_METHOD[METHOD]
-    settings, shipped = SEARCH_OF_METHOD[METHOD], shipped_for(METHOD, planes)
-    models = [load_object_model(template, None, shipped, **settings)[1] for template in templates]
+    if up is not None:
+        require_direction("up", up)
     if not frames:
         raise ValueError("there is no frame; give at least one")
 

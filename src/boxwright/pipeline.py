@@ -20,7 +20,7 @@ from boxwright.models import (
     load_object_model,
     shipped_for,
 )
-from boxwright.perception import chosen
+from boxwright.perception import chosen, require_planes
 from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
 from boxwright.types import Cloud, KnownSize
 from boxwright.types.checks import require_direction
@@ -56,6 +56,29 @@ SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {
 @dataclass(frozen=True)
 class Inferred:
     """The answer to one cloud: the model, and for each point (N,) its object and part, int16, -1 for none.
+def load_models(
+    method: str,
+    templates: Sequence[str | Path] | None = None,
+    weights: str | Path | None = None,
+    planes: str | None = None,
+    search: dict[str, float | str] | None = None,
+) -> list[_core.ObjectModel]:
+    """What `infer` looks for in a cloud, by its arguments of these names; to refuse them before clouds are read.
+
+    Raises ValueError where method, templates, weights, front end or search do not fit, OSError where a file cannot be
+    read.
+    """
+    if method not in METHODS:
+        raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
+    templates = TEMPLATES_OF_METHOD[method] if templates is None else templates
+    if weights is not None and len(templates) != 1:
+        raise ValueError("weights fit one template; name that one alone")
+    require_planes(planes)
+    front_end = planes if planes and weights is None else PLANES_OF_METHOD[method]
+    shipped, settings = shipped_for(method, front_end), SEARCH_OF_METHOD[method] | (search or {})
+    return [load_object_model(template, weights, shipped, **settings)[1] for template in templates]
+
+
 
     `shapes` (objects, F) holds what tells each object's template, `_core.SHAPE_FEATURES`; NaN where no body was fitted.
     `refused` says of candidates of the method "fitted" that are no objects why, one line each.
@@ -102,17 +125,10 @@ def infer(
 
     Raises ValueError where a value does not fit or the cloud cannot be used as it is (units, frame, up), with the mend.
     """
-    if method not in METHODS:
-        raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
-    templates = TEMPLATES_OF_METHOD[method] if templates is None else templates
-    if weights is not None and len(templates) != 1:
-        raise ValueError("weights fit one template; name that one alone")
+    models = load_models(method, templates, weights, planes, search)
     if sizes and method != "fitted":
         raise ValueError(f"method {method!r} knows no sizes; give them to method 'fitted'")
     planes = planes or PLANES_OF_METHOD[method]
-    settings = SEARCH_OF_METHOD[method] | (search or {})
-    shipped = shipped_for(method, planes if weights is None else PLANES_OF_METHOD[method])
-    models = [load_object_model(template, weights, shipped, **settings)[1] for template in templates]
 
     start = time.perf_counter()
     points = cloud.points if roi is None else within(cloud.points, roi)
@@ -122,9 +138,11 @@ def infer(
         cloud.height,
         models,
         viewpoint=cloud.viewpoint,
+    if up is not None:
+        require_direction("up", up)
         up=up,
         perception=chosen(planes),
-        search=settings,
+        search=SEARCH_OF_METHOD[method] | (search or {}),
         fitted=method == "fitted",
         kinds=(kinds or load_kinds()) if method == "fitted" else None,
         sizes=[(size.name, size.outer) for size in sizes],
@@ -141,8 +159,6 @@ def infer(
         source=source_of(cloud),
         warnings=tuple(perception.warnings + answer.warnings + unused),
         seconds=Seconds(read=read_seconds, stages=perception.stage_seconds | answer.stage_seconds, total=total),
-    if up is not None:
-        require_direction("up", up)
         up=vector(perception.up),
         support_plane=support_plane_of(perception),
         free_space="no viewpoint" if cloud.viewpoint is None else "used" if answer.free_space else "not used",

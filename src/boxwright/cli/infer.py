@@ -81,6 +81,7 @@ def infer(
         start = time.perf_counter()
         if poses is not None:
             frames = read_frames(path, reading)
+    model.refuse_unfit(scene)
             fused = model.infer_frames(frames, scene, time.perf_counter() - start, sizes, path.name)
             name = name_of_poses(path)
             files = save_fused(fused, output / name, name, formats)

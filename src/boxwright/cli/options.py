@@ -232,6 +232,12 @@ class ModelOptions:
         from boxwright.pipeline import TEMPLATES_OF_METHOD
 
         return tuple(self.template) if self.template else TEMPLATES_OF_METHOD[self.method_name]
+    def refuse_unfit(self, scene: SceneOptions) -> None:
+        """Refuses what fits no cloud before any is read; raises as `boxwright.pipeline.load_models` does."""
+        from boxwright.pipeline import load_models
+
+        load_models(self.method_name, self.template_names, self.weights, scene.planes)
+
 
     def infer_frames(
         self,
