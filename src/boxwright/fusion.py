@@ -16,7 +16,7 @@ from boxwright.io.labels import PointLabels
 from boxwright.kinematics.transforms import Matrix, apply, inverse, quaternion_wxyz
 from boxwright.models import load_judgement, load_kinds
 from boxwright.perception import chosen
-from boxwright.pipeline import PLANES_OF_METHOD, Inferred, load_models
+from boxwright.pipeline import PLANES_OF_METHOD, Inferred, coarse, load_models
 from boxwright.segmentation import Bounds, inside, support_plane_of, vector
 from boxwright.types import Cloud, FrameSource, KnownSize, Pose, PosedCloud, Source
 from boxwright.types.checks import require_direction
@@ -103,7 +103,7 @@ def infer_frames(
         version=1,
         method=METHOD,
         source=_source(source, frames, first_from_frame),
-        warnings=_warnings(perceptions, answer),
+        warnings=_warnings(frames, perceptions, answer),
         seconds=Seconds(read=read_seconds, stages=_stages(perceptions, answer), total=total),
         up=vector(first.up),
         support_plane=support_plane_of(first),
@@ -146,8 +146,14 @@ def _pose(a_from_b: Matrix) -> Pose:
     return Pose(position=vector(a_from_b[:3, 3]), orientation=(x, y, z, w))
 
 
-def _warnings(perceptions: list[_core.Perception], answer: _core.Answer) -> tuple[str, ...]:
-    of_frames = [f"frame {k}: {line}" for k, seen in enumerate(perceptions, start=1) for line in seen.warnings]
+def _warnings(
+    frames: Sequence[PosedCloud], perceptions: list[_core.Perception], answer: _core.Answer
+) -> tuple[str, ...]:
+    of_frames = [
+        f"frame {k}: {line}"
+        for k, (frame, seen) in enumerate(zip(frames, perceptions, strict=True), start=1)
+        for line in seen.warnings + coarse(frame.cloud)
+    ]
     return tuple(of_frames + answer.warnings)
 
 

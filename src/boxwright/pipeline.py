@@ -45,6 +45,9 @@ UNUSED_WEIGHTS = (
     "own; name method exact or paper to use yours"
 )
 
+FEWEST_PIXELS = 320 * 240 // 2
+"""An image of fewer is too coarse for the method fitted: what it asks of panels is counted in pixels."""
+
 SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {
     "paper": {"search": "staged"},
     "exact": {"search": "exact"},
@@ -53,9 +56,6 @@ SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {
 """Settings of the search of each method, which a user may override."""
 
 
-@dataclass(frozen=True)
-class Inferred:
-    """The answer to one cloud: the model, and for each point (N,) its object and part, int16, -1 for none.
 def load_models(
     method: str,
     templates: Sequence[str | Path] | None = None,
@@ -79,6 +79,9 @@ def load_models(
     return [load_object_model(template, weights, shipped, **settings)[1] for template in templates]
 
 
+@dataclass(frozen=True)
+class Inferred:
+    """The answer to one cloud: the model, and for each point (N,) its object and part, int16, -1 for none.
 
     `shapes` (objects, F) holds what tells each object's template, `_core.SHAPE_FEATURES`; NaN where no body was fitted.
     `refused` says of candidates of the method "fitted" that are no objects why, one line each.
@@ -90,6 +93,16 @@ def load_models(
     perception: _core.Perception
     shapes: NDArray[np.float64]
     refused: tuple[str, ...] = ()
+
+
+def coarse(cloud: Cloud) -> list[str]:
+    """A warning where an organized cloud has too few pixels for the method "fitted", else none."""
+    if not cloud.organized or cloud.width * cloud.height >= FEWEST_PIXELS:
+        return []
+    return [
+        f"the image has {cloud.width} x {cloud.height} pixels, which is coarse: a panel is told by some 120 readings "
+        "and more, so boxes and flaps may be missed; give 320 x 240 or more"
+    ]
 
 
 def infer(
@@ -128,6 +141,8 @@ def infer(
     models = load_models(method, templates, weights, planes, search)
     if sizes and method != "fitted":
         raise ValueError(f"method {method!r} knows no sizes; give them to method 'fitted'")
+    if up is not None:
+        require_direction("up", up)
     planes = planes or PLANES_OF_METHOD[method]
 
     start = time.perf_counter()
@@ -138,8 +153,6 @@ def infer(
         cloud.height,
         models,
         viewpoint=cloud.viewpoint,
-    if up is not None:
-        require_direction("up", up)
         up=up,
         perception=chosen(planes),
         search=SEARCH_OF_METHOD[method] | (search or {}),
@@ -157,7 +170,7 @@ def infer(
         version=1,
         method=method,
         source=source_of(cloud),
-        warnings=tuple(perception.warnings + answer.warnings + unused),
+        warnings=tuple(perception.warnings + answer.warnings + unused + (coarse(cloud) if method == "fitted" else [])),
         seconds=Seconds(read=read_seconds, stages=perception.stage_seconds | answer.stage_seconds, total=total),
         up=vector(perception.up),
         support_plane=support_plane_of(perception),
