@@ -135,7 +135,7 @@ PlanesOption = Annotated[
         callback=_known_planes,
         metavar="NAME",
         help="How planes are found. grid: grown on the image grid, or on voxels; ransac: as of 2011. "
-        "Default: that of the method (paper: ransac, exact: grid); segment, label: grid.",
+        "Default: that of the method (fitted, exact: grid; paper: ransac); segment, label: grid.",
         rich_help_panel=MODEL,
     ),
 ]
