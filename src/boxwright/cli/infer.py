@@ -18,7 +18,6 @@ from boxwright.cli.options import (
     PosesOption,
     ReadOptions,
     SceneOptions,
-    VerboseOption,
 )
 
 if TYPE_CHECKING:
@@ -28,6 +27,14 @@ FigureOption = Annotated[bool, typer.Option("--figure", help="Draw NAME.png besi
 
 MjcfOption = Annotated[bool, typer.Option("--mjcf", help="Write NAME_K.mjcf too, for MuJoCo.")]
 SdfOption = Annotated[bool, typer.Option("--sdf", help="Write NAME_K.sdf too, for Gazebo.")]
+VerboseOption = Annotated[
+    bool,
+    typer.Option(
+        "--verbose",
+        help="Tell too why candidates were refused, which given size a box has, from where hidden parts would be seen, "
+        "and the time of each stage; with --json the refusals alone.",
+    ),
+]
 
 
 @grouped
@@ -74,6 +81,7 @@ def infer(
 
     inputs = inputs_of(clouds, poses, model)
     sizes = known.sizes(model.method_name)
+    model.refuse_unfit(scene)
     draw = frame_figure_drawer() if figure else None
     formats = ["urdf", *(["mjcf"] if mjcf else []), *(["sdf"] if sdf else [])]
 
@@ -81,7 +89,6 @@ def infer(
         start = time.perf_counter()
         if poses is not None:
             frames = read_frames(path, reading)
-    model.refuse_unfit(scene)
             fused = model.infer_frames(frames, scene, time.perf_counter() - start, sizes, path.name)
             name = name_of_poses(path)
             files = save_fused(fused, output / name, name, formats)
@@ -99,6 +106,6 @@ def infer(
 
     outcomes = answer_each(inputs, answer, lambda outcome: print_outcome(outcome, verbose, as_json), jobs, "infer")
     if as_json:
-        print_json(outcomes)
+        print_json(outcomes, verbose)
     if any(outcome.refusal for outcome in outcomes):
         raise typer.Exit(1)

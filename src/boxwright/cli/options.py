@@ -175,7 +175,6 @@ PosesOption = Annotated[
 ]
 OutOption = Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the folders of answers.")]
 InputsOption = Annotated[int, typer.Option("--jobs", min=1, help="Inputs worked on at once.")]
-VerboseOption = Annotated[bool, typer.Option("--verbose", help="Print the time of each stage too.")]
 
 
 @dataclass(frozen=True)
@@ -232,12 +231,12 @@ class ModelOptions:
         from boxwright.pipeline import TEMPLATES_OF_METHOD
 
         return tuple(self.template) if self.template else TEMPLATES_OF_METHOD[self.method_name]
+
     def refuse_unfit(self, scene: SceneOptions) -> None:
         """Refuses what fits no cloud before any is read; raises as `boxwright.pipeline.load_models` does."""
         from boxwright.pipeline import load_models
 
         load_models(self.method_name, self.template_names, self.weights, scene.planes)
-
 
     def infer_frames(
         self,
