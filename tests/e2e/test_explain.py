@@ -15,12 +15,13 @@ from support.command import boxwright
 
 
 def test_whole_boxes_are_explained_of_the_cloud_as_of_the_model(scene_set: Path, tmp_path: Path) -> None:
+    clouds = sorted(scene_set.glob("*.pcd"))
+    assert boxwright("infer", *clouds, "-o", tmp_path).status == 0
     cases = 0
-    for cloud in sorted(scene_set.glob("*.pcd")):
+    for cloud in clouds:
         answer = boxwright("explain", cloud, "--json")
         assert (answer.status, answer.err) == (0, "")
         told = json.loads(answer.out)
-        assert boxwright("infer", cloud, "-o", tmp_path).status == 0
         objects = load_model(tmp_path / cloud.stem / "model.json").objects
         for one, found in zip(told, objects, strict=True):
             assert one.keys() == {"template", "score", "score_terms"}

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from boxwright.cli.groups import grouped
+from boxwright.cli.known_options import KnownOptions
 from boxwright.cli.options import (
     CloudsOrPosesArgument,
     InputsOption,
     JsonOption,
-    KnownOptions,
     ModelOptions,
     OutOption,
     PosesOption,

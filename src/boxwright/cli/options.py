@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from boxwright.cli.values import Bounds, OuterSize, Triple
+from boxwright.cli.values import Bounds, Triple
 
 if TYPE_CHECKING:
     from boxwright.fusion import Fused
@@ -136,25 +136,6 @@ PlanesOption = Annotated[
         metavar="NAME",
         help="How planes are found. grid: grown on the image grid, or on voxels; ransac: as of 2011. "
         "Default: that of the method (fitted, exact: grid; paper: ransac); segment, label: grid.",
-        rich_help_panel=MODEL,
-    ),
-]
-SizeOption = Annotated[
-    list[OuterSize] | None,
-    typer.Option(
-        "--size",
-        parser=OuterSize.parse,
-        metavar="LxWxH",
-        help="Outer size in mm that a box in view has, in any order, e.g. 400x300x200; repeatable. --method fitted.",
-        rich_help_panel=MODEL,
-    ),
-]
-CatalogueOption = Annotated[
-    Path | None,
-    typer.Option(
-        "--catalogue",
-        metavar="FILE.toml",
-        help="Outer sizes that boxes in view may have (docs/formats.md). --method fitted.",
         rich_help_panel=MODEL,
     ),
 ]
@@ -286,23 +267,3 @@ class ModelOptions:
             sizes=sizes,
             read_seconds=read_seconds,
         )
-
-
-@dataclass(frozen=True)
-class KnownOptions:
-    """What is known of the boxes in view."""
-
-    size: SizeOption = None
-    catalogue: CatalogueOption = None
-
-    def sizes(self, method: str) -> tuple[KnownSize, ...]:
-        """The outer sizes given, those of the command line first.
-
-        Raises typer.BadParameter where the method knows no sizes, and as `read_sizes` does.
-        """
-        from boxwright.io.sizes import known_size, read_sizes
-
-        if (self.size or self.catalogue) and method != "fitted":
-            raise typer.BadParameter(f"method {method!r} knows no sizes; add --method fitted", param_hint="--size")
-        typed = tuple(known_size(f"{size.text} mm", size.outer_mm) for size in self.size or ())
-        return typed + (read_sizes(self.catalogue) if self.catalogue else ())
