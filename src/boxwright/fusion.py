@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from boxwright import _core
 from boxwright.io.labels import PointLabels
 from boxwright.kinematics.transforms import Matrix, apply, inverse, quaternion_wxyz
-from boxwright.models import load_judgement, load_kinds, load_object_model, shipped_for
+from boxwright.models import load_judgement, load_kinds
 from boxwright.perception import chosen
-from boxwright.pipeline import PLANES_OF_METHOD, SEARCH_OF_METHOD, TEMPLATES_OF_METHOD, Inferred
+from boxwright.pipeline import PLANES_OF_METHOD, Inferred, coarse, load_models
 from boxwright.segmentation import Bounds, inside, support_plane_of, vector
 from boxwright.types import Cloud, FrameSource, KnownSize, Pose, PosedCloud, Source
+from boxwright.types.checks import require_direction
 from boxwright.types.model import Model, Object, Seconds
 
 METHOD = "fitted"
@@ -71,18 +72,18 @@ def infer_frames(
     Raises ValueError where there is no frame, where one has no image grid or viewpoint, and as `infer` does, naming the
     frame, counted from 1.
     """
-    templates = TEMPLATES_OF_METHOD[METHOD] if templates is None else templates
+    models = load_models(METHOD, templates, planes=planes)
     planes = planes or PLANES_OF_METHOD[METHOD]
-    settings, shipped = SEARCH_OF_METHOD[METHOD], shipped_for(METHOD, planes)
-    models = [load_object_model(template, None, shipped, **settings)[1] for template in templates]
+    if up is not None:
+        require_direction("up", up)
     if not frames:
         raise ValueError("there is no frame; give at least one")
 
     start = time.perf_counter()
     first_from_frame = [inverse(frames[0].base_from_camera) @ frame.base_from_camera for frame in frames]
     clouds = [
-        (_within(frame.cloud, pose, roi), frame.cloud.width, frame.cloud.height, frame.cloud.viewpoint, pose.tolist())
-        for frame, pose in zip(frames, first_from_frame, strict=True)
+        (_within(k, frame.cloud, pose, roi), *_grid(frame.cloud), frame.cloud.viewpoint, pose.tolist())
+        for k, (frame, pose) in enumerate(zip(frames, first_from_frame, strict=True), start=1)
     ]
     perceptions, answer = _core.infer_frames(
         clouds,
@@ -102,7 +103,7 @@ def infer_frames(
         version=1,
         method=METHOD,
         source=_source(source, frames, first_from_frame),
-        warnings=_warnings(perceptions, answer),
+        warnings=_warnings(frames, perceptions, answer),
         seconds=Seconds(read=read_seconds, stages=_stages(perceptions, answer), total=total),
         up=vector(first.up),
         support_plane=support_plane_of(first),
@@ -113,11 +114,18 @@ def infer_frames(
     return Fused(model, labels, tuple(perceptions), answer.shapes, tuple(answer.refused))
 
 
-def _within(cloud: Cloud, first_from_frame: Matrix, roi: Bounds | None) -> NDArray[np.float32]:
+def _grid(cloud: Cloud) -> tuple[int, int]:
+    return cloud.width, cloud.height
+
+
+def _within(number: int, cloud: Cloud, first_from_frame: Matrix, roi: Bounds | None) -> NDArray[np.float32]:
     """A frame's points, those beyond the bounds in the first frame's coordinates being no readings."""
     if roi is None:
         return cloud.points
-    kept = inside(apply(first_from_frame, cloud.points.astype(np.float64)), roi)
+    try:
+        kept = inside(apply(first_from_frame, cloud.points.astype(np.float64)), roi)
+    except ValueError as error:
+        raise ValueError(f"frame {number}: {error}") from None
     return np.where(kept[:, None], cloud.points, np.float32(np.nan))
 
 
@@ -138,8 +146,14 @@ def _pose(a_from_b: Matrix) -> Pose:
     return Pose(position=vector(a_from_b[:3, 3]), orientation=(x, y, z, w))
 
 
-def _warnings(perceptions: list[_core.Perception], answer: _core.Answer) -> tuple[str, ...]:
-    of_frames = [f"frame {k}: {line}" for k, seen in enumerate(perceptions, start=1) for line in seen.warnings]
+def _warnings(
+    frames: Sequence[PosedCloud], perceptions: list[_core.Perception], answer: _core.Answer
+) -> tuple[str, ...]:
+    of_frames = [
+        f"frame {k}: {line}"
+        for k, (frame, seen) in enumerate(zip(frames, perceptions, strict=True), start=1)
+        for line in seen.warnings + coarse(frame.cloud)
+    ]
     return tuple(of_frames + answer.warnings)
 
 

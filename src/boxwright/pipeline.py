@@ -20,9 +20,10 @@ from boxwright.models import (
     load_object_model,
     shipped_for,
 )
-from boxwright.perception import chosen
+from boxwright.perception import chosen, require_planes
 from boxwright.segmentation import Bounds, source_of, support_plane_of, vector, within
 from boxwright.types import Cloud, KnownSize
+from boxwright.types.checks import require_direction
 from boxwright.types.model import Model, Object, Seconds
 
 METHODS = ("fitted", "exact", "paper")
@@ -44,12 +45,38 @@ UNUSED_WEIGHTS = (
     "own; name method exact or paper to use yours"
 )
 
+FEWEST_PIXELS = 320 * 240 // 2
+"""An image of fewer is too coarse for the method fitted: what it asks of panels is counted in pixels."""
+
 SEARCH_OF_METHOD: dict[str, dict[str, float | str]] = {
     "paper": {"search": "staged"},
     "exact": {"search": "exact"},
     "fitted": {"search": "exact"},
 }
 """Settings of the search of each method, which a user may override."""
+
+
+def load_models(
+    method: str,
+    templates: Sequence[str | Path] | None = None,
+    weights: str | Path | None = None,
+    planes: str | None = None,
+    search: dict[str, float | str] | None = None,
+) -> list[_core.ObjectModel]:
+    """What `infer` looks for in a cloud, by its arguments of these names; to refuse them before clouds are read.
+
+    Raises ValueError where method, templates, weights, front end or search do not fit, OSError where a file cannot be
+    read.
+    """
+    if method not in METHODS:
+        raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
+    templates = TEMPLATES_OF_METHOD[method] if templates is None else templates
+    if weights is not None and len(templates) != 1:
+        raise ValueError("weights fit one template; name that one alone")
+    require_planes(planes)
+    front_end = planes if planes and weights is None else PLANES_OF_METHOD[method]
+    shipped, settings = shipped_for(method, front_end), SEARCH_OF_METHOD[method] | (search or {})
+    return [load_object_model(template, weights, shipped, **settings)[1] for template in templates]
 
 
 @dataclass(frozen=True)
@@ -66,6 +93,16 @@ class Inferred:
     perception: _core.Perception
     shapes: NDArray[np.float64]
     refused: tuple[str, ...] = ()
+
+
+def coarse(cloud: Cloud) -> list[str]:
+    """A warning where an organized cloud has too few pixels for the method "fitted", else none."""
+    if not cloud.organized or cloud.width * cloud.height >= FEWEST_PIXELS:
+        return []
+    return [
+        f"the image has {cloud.width} x {cloud.height} pixels, which is coarse: a panel is told by some 120 readings "
+        "and more, so boxes and flaps may be missed; give 320 x 240 or more"
+    ]
 
 
 def infer(
@@ -101,17 +138,12 @@ def infer(
 
     Raises ValueError where a value does not fit or the cloud cannot be used as it is (units, frame, up), with the mend.
     """
-    if method not in METHODS:
-        raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
-    templates = TEMPLATES_OF_METHOD[method] if templates is None else templates
-    if weights is not None and len(templates) != 1:
-        raise ValueError("weights fit one template; name that one alone")
+    models = load_models(method, templates, weights, planes, search)
     if sizes and method != "fitted":
         raise ValueError(f"method {method!r} knows no sizes; give them to method 'fitted'")
+    if up is not None:
+        require_direction("up", up)
     planes = planes or PLANES_OF_METHOD[method]
-    settings = SEARCH_OF_METHOD[method] | (search or {})
-    shipped = shipped_for(method, planes if weights is None else PLANES_OF_METHOD[method])
-    models = [load_object_model(template, weights, shipped, **settings)[1] for template in templates]
 
     start = time.perf_counter()
     points = cloud.points if roi is None else within(cloud.points, roi)
@@ -123,7 +155,7 @@ def infer(
         viewpoint=cloud.viewpoint,
         up=up,
         perception=chosen(planes),
-        search=settings,
+        search=SEARCH_OF_METHOD[method] | (search or {}),
         fitted=method == "fitted",
         kinds=(kinds or load_kinds()) if method == "fitted" else None,
         sizes=[(size.name, size.outer) for size in sizes],
@@ -138,7 +170,7 @@ def infer(
         version=1,
         method=method,
         source=source_of(cloud),
-        warnings=tuple(perception.warnings + answer.warnings + unused),
+        warnings=tuple(perception.warnings + answer.warnings + unused + (coarse(cloud) if method == "fitted" else [])),
         seconds=Seconds(read=read_seconds, stages=perception.stage_seconds | answer.stage_seconds, total=total),
         up=vector(perception.up),
         support_plane=support_plane_of(perception),

@@ -18,6 +18,9 @@ Search = Literal["staged", "exact"]
 SAME_SCORE = 1e-9
 """Scores that are nearer differ by rounding alone."""
 
+EVIDENCE = "evidence"
+"""The kind of the score's terms of whole boxes; those of assignments have the paper's names."""
+
 LISTS = (20, 200, 2000)
 """How many assignments are listed, one length after the other: many use segments that better objects have taken."""
 
@@ -58,6 +61,11 @@ class RunnerUp:
     segments: Segments
     differences: tuple[Difference, ...]
     refused: int
+
+
+def is_judged_whole(found: Object) -> bool:
+    """Whether an object was judged as a whole box (docs/maths.md, eq. 90), not found as an assignment of segments."""
+    return any(term.kind == EVIDENCE for term in found.score_terms)
 
 
 def segments_of(inferred: Inferred, k: int) -> Segments:

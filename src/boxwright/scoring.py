@@ -23,7 +23,7 @@ from boxwright.evaluation import (
 from boxwright.io.clouds import read_cloud
 from boxwright.io.labels import NO_LABEL, PointLabels
 from boxwright.parallel import ordered_map, processors
-from boxwright.pipeline import DEFAULT_METHOD, infer
+from boxwright.pipeline import DEFAULT_METHOD, infer, load_models
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,11 @@ def score_entries(
     planes: str | None = None,
     jobs: int | None,
 ) -> Iterator[FrameOutcome]:
-    """The outcome of each frame of a set, in order, whatever the number of threads. Arguments are `evaluate`'s."""
+    """The outcome of each frame of a set, in order, whatever the number of threads. Arguments are `evaluate`'s.
+
+    Raises ValueError or OSError at once where the arguments fit no frame, as `boxwright.pipeline.load_models` does.
+    """
+    load_models(method, templates, weights, planes)
 
     def outcome(entry: SetEntry) -> FrameOutcome:
         try:

@@ -63,7 +63,7 @@ def segment(
 def within(points: NDArray[np.float32], roi: Bounds) -> NDArray[np.float32]:
     """A copy of the points (N, 3) in which those beyond the bounds are no readings (NaN).
 
-    Raises ValueError where a low bound is not below its high one.
+    Raises ValueError where a low bound is not below its high one, and where readings are and none lies within.
     """
     return np.where(inside(points, roi)[:, None], points, np.float32(np.nan))
 
@@ -71,14 +71,26 @@ def within(points: NDArray[np.float32], roi: Bounds) -> NDArray[np.float32]:
 def inside(points: NDArray[np.floating], roi: Bounds) -> NDArray[np.bool_]:
     """Which of the points (N, 3) lie within the bounds.
 
-    Raises ValueError where a low bound is not below its high one.
+    Raises ValueError where a low bound is not below its high one, and where readings are and none lies within.
     """
     low, high = np.array(roi[0::2]), np.array(roi[1::2])
     if not np.all(low < high):
         raise ValueError(
             f"roi {','.join(map(str, roi))}: each low bound comes before its high one: xlo,xhi,ylo,yhi,zlo,zhi"
         )
-    return np.asarray(np.all((points >= low) & (points <= high), axis=1))
+    kept = np.asarray(np.all((points >= low) & (points <= high), axis=1))
+    if not kept.any():
+        _refuse_empty(points, roi)
+    return kept
+
+
+def _refuse_empty(points: NDArray[np.floating], roi: Bounds) -> None:
+    """A region beside all readings is a mistake; a cloud without any is refused elsewhere, as what it is."""
+    readings = points[np.isfinite(points).all(axis=1)]
+    if len(readings):
+        spans = zip("xyz", readings.min(axis=0), readings.max(axis=0), strict=True)
+        where = ", ".join(f"{axis} {low:.3f} to {high:.3f}" for axis, low, high in spans)
+        raise ValueError(f"roi {','.join(map(str, roi))}: holds no reading; the cloud's readings lie in {where} m")
 
 
 def source_of(cloud: Cloud) -> Source:

@@ -40,6 +40,19 @@ def test_a_size_is_matched_and_told(large: tuple[Path, tuple[float, float, float
     assert all(f"{name}: hidden (" in lines for name in told)
 
 
+def test_what_was_refused_is_told_on_lines_of_its_own_and_as_json(scene_set: Path, tmp_path: Path) -> None:
+    clouds = sorted(scene_set.glob("*.pcd"))
+    answer = boxwright("infer", *clouds, "-o", tmp_path, "--json", "--verbose")
+    assert answer.status == 0
+    refused = [line for told in json.loads(answer.out) for line in told["refused"]]
+    assert any(len(line) > 100 for line in refused), "none would be wrapped"
+    assert all(line.startswith("no object at (") for line in refused)
+    printed = boxwright("infer", *clouds, "-o", tmp_path, "--verbose").out.splitlines()
+    assert [line for line in printed if line.startswith("no object at (")] == refused
+    (told,) = json.loads(boxwright("infer", clouds[0], "-o", tmp_path, "--json").out)
+    assert "refused" not in told
+
+
 def test_a_catalogue_that_fits_nothing_warns(large: tuple[Path, tuple[float, float, float]], tmp_path: Path) -> None:
     catalogue = tmp_path / "sizes.toml"
     catalogue.write_text(

@@ -97,6 +97,9 @@ WRONG_COMMAND_LINES = (
     ("infer", "a.pcd", "-o", "out", "--method", "magic"),
     ("infer", "a.pcd", "-o", "out", "--roi", "1,2"),
     ("infer", "a.pcd", "-o", "out", "--viewpoint", "1,2,high"),
+    ("infer", "a.pcd", "-o", "out", "--viewpoint", "0,0,nan"),
+    ("infer", "a.pcd", "-o", "out", "--up", "nan,0,1"),
+    ("segment", "a.pcd", "-o", "out", "--up", "0,0,0"),
     ("infer", "a.pcd", "-o", "out", "--jobs", "0"),
     ("figure", "a.pcd", "-o", "a.gif"),
     ("train", "set", "-o", "w.json", "--method", "paper"),
@@ -127,6 +130,9 @@ def test_values_that_do_not_fit(frame: Path, carton: tuple[str, ...], weights: P
     base = ("infer", frame, "-o", tmp_path / "out")
     _one_line(boxwright(*base, *carton, "--roi", "1,0,0,1,0,1"), "roi")
     _one_line(boxwright(*base, "--template", "sofa"), "sofa", "carton")
+    _one_line(boxwright("infer", frame, "gone.pcd", "-o", "out", "--template", "sofa"), "sofa", "carton")
+    _one_line(boxwright("evaluate", frame.parent, "--template", "sofa"), "sofa", "carton")
+    _one_line(boxwright(*base, *carton, "--roi", "8,9,8,9,8,9"), "roi", "holds no reading", "lie in x")
     _one_line(boxwright(*base, "--weights", weights), "template")
     _one_line(boxwright(*base, *carton, "--intrinsics", "camera.json"), "--intrinsics")
     (tmp_path / "file").write_text("")

@@ -30,7 +30,8 @@ BAD = (
     ("[[size]]\nname = 'a'", "missing required field `outer_mm`"),
     ("[[size]]\nname = 'a'\nouter_mm = [1, 2]", "length 3"),
     ("[[size]]\nname = 'a'\nouter_mm = [0.4, 0.3, 0.2]", 'size 1: size "a" has a length of 0.4 mm'),
-    ("[[size]]\nname = 'a'\nouter_mm = [400, 300, -200]", "above 0"),
+    ("[[size]]\nname = 'a'\nouter_mm = [400, 300, -200]", "size 'a': outer_mm holds -200.0; it must be above 0"),
+    ("[[size]]\nname = 'a'\nouter_mm = [400, 300, nan]", "size 'a': outer_mm holds nan, which is no number"),
     ("[[size]]\nname = ' '\nouter_mm = [400, 300, 200]", "name is empty"),
     ("[[size]]\nname = 'a'\nouter_mm = [400, 300, 200]\nweight = 3", "unknown field `weight`"),
     (CATALOGUE + CATALOGUE, "size 3: 'A4 carton' is there already"),
@@ -57,7 +58,7 @@ def test_bad_catalogues_name_file_and_fault(tmp_path: Path) -> None:
         assert line.startswith(str(path)), line
         assert fault in line, line
         assert "\n" not in line, line
-    assert len(BAD) == 10
+    assert len(BAD) == 11
 
 
 NONSENSE = (
@@ -68,7 +69,7 @@ NONSENSE = (
     ("0.4x0.3x0.2", "has a length of 0.4 mm"),
     ("4000x300x200", "has a length of 4000 mm"),
     ("400x300x-200", "above 0"),
-    ("nanx300x200", "above 0"),
+    ("nanx300x200", "size 'nanx300x200': outer_mm holds nan, which is no number; it must be above 0"),
 )
 
 

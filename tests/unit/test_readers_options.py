@@ -125,6 +125,7 @@ REFUSALS: list[tuple[str, str, dict[str, object]]] = [
     ("a.pcd", "--depth-decode is for depth images", {"depth_decode": "rotate3"}),
     ("a.pcd", 'unit: is "cm"; must be one of: m mm', {"unit": "cm"}),
     ("a.pcd", "viewpoint: has 2 values", {"viewpoint": (1, 2)}),
+    ("a.pcd", "viewpoint holds nan; it must be finite", {"viewpoint": (0, 0, np.nan)}),
     ("a.stl", "the suffix '.stl' is no cloud's", {}),
     ("b.ply", "it begins with", {}),
 ]

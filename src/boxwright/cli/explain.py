@@ -12,9 +12,13 @@ from boxwright.cli.options import MODEL, JsonOption, ModelOptions, ReadOptions, 
 
 if TYPE_CHECKING:
     from boxwright.cli.explain_report import Reason
+    from boxwright.pipeline import Inferred
+    from boxwright.types import Cloud
 
 PAPER = "paper"
 """The method whose search is staged; others prove their answers."""
+FITTED = "fitted"
+"""The method that judges whole boxes where it can."""
 
 
 @grouped
@@ -29,7 +33,8 @@ def explain(
         Literal["staged", "exact"] | None,
         typer.Option(
             "--search",
-            help="How the best are found: the paper's list, or proven. Default: the method's.",
+            help="How the best assignments are found: the paper's list, or proven. Default: the method's; "
+            "not for whole boxes.",
             rich_help_panel=MODEL,
         ),
     ] = None,
@@ -37,13 +42,22 @@ def explain(
 ) -> None:
     """Say why each object scores as it does: every feature's value, weight and share of the score.
 
-    A share is weight x value; the shares sum to the score J(G). Angles in radians, distances in metres. Of a cloud, it
-    says too which assignment came second, and which terms decided between the two; segments are numbered as in the
-    picture that boxwright segment draws with the same options.
+    A share is weight x value; the shares sum to the score. Angles in radians, distances in metres.
+
+    [bold]fitted[/] (default): the score is the log odds that this is a box, the shares are what speaks for and against
+    it; trees is what all trees add (docs/maths.md, eq. 90). Each box is judged by itself, so none came second. A cloud
+    without an image or a viewpoint goes by assignments, as with exact.
+
+    [bold]exact[/], [bold]paper[/]: the score is J(G) of the assignment of segments to parts (eq. 1), the shares are
+    those of the template's features and relations. Of a cloud, it says too which assignment came second, and which
+    terms decided between the two; segments are numbered as in the picture that boxwright segment draws with the same
+    options.
 
     [bold]Examples[/]
 
-    boxwright explain frame.pcd --search exact
+    boxwright explain frame.pcd
+
+    boxwright explain frame.pcd --method exact
 
     boxwright infer frame.pcd -o out && boxwright explain out/frame
     """
@@ -74,11 +88,11 @@ def _of_model(source: Path) -> tuple[Path, list[Reason]]:
     from boxwright.io.models import load_model
 
     path = source / "model.json" if source.is_dir() else source
-    objects = load_model(path).objects
-    for k, found in enumerate(objects):
-        if not found.score_terms:
+    model = load_model(path)
+    for k, found in enumerate(model.objects):
+        if not found.score_terms and model.method != FITTED:
             raise ValueError(f"{path}: objects[{k}]: score_terms: is empty; infer the cloud anew to have them")
-    return path, [Reason(found) for found in objects]
+    return path, [Reason(found) for found in model.objects]
 
 
 def _planes(model: ModelOptions, scene: SceneOptions) -> str:
@@ -95,15 +109,15 @@ def _of_cloud(
     planes: str,
     search: Literal["staged", "exact"] | None,
 ) -> list[Reason]:
-    from boxwright.cli.explain_report import Reason
-    from boxwright.models import load_template, load_weights, shipped_for
-    from boxwright.pipeline import PLANES_OF_METHOD, infer
-    from boxwright.runner_up import runner_up, segments_of
+    from boxwright.cli.failures import warn
+    from boxwright.pipeline import infer
 
-    method = model.method_name
+    cloud = reading.read(path)
+    if search is not None:
+        _refuse_search(model.method_name, cloud)
     inferred = infer(
-        reading.read(path),
-        method=method,
+        cloud,
+        method=model.method_name,
         templates=model.template_names,
         weights=model.weights,
         up=scene.up,
@@ -111,12 +125,36 @@ def _of_cloud(
         planes=planes,
         search=None if search is None else {"search": search},
     )
-    used = search or ("staged" if method == PAPER else "exact")
-    shipped = shipped_for(method, planes if model.weights is None else PLANES_OF_METHOD[method])
+    for line in inferred.model.warnings:
+        warn(f"{path}: warning: {line}")
+    return _reasons(inferred, model, planes, search or ("staged" if model.method_name == PAPER else "exact"))
+
+
+def _refuse_search(method: str, cloud: Cloud) -> None:
+    """Where whole boxes are judged nothing is searched that a user could choose."""
+    if method == FITTED and cloud.organized and cloud.viewpoint is not None:
+        raise typer.BadParameter(
+            "with an image and a viewpoint the method fitted judges whole boxes and searches no assignment; leave it "
+            "out, or add --method exact or paper",
+            param_hint="--search",
+        )
+
+
+def _reasons(inferred: Inferred, model: ModelOptions, planes: str, search: Literal["staged", "exact"]) -> list[Reason]:
+    """Why each object; of assignments with what came second, of whole boxes and of boxes told anew without."""
+    from boxwright.cli.explain_report import Reason
+    from boxwright.models import load_template, load_weights, shipped_for
+    from boxwright.pipeline import PLANES_OF_METHOD
+    from boxwright.runner_up import is_judged_whole, runner_up, segments_of
+
+    shipped = shipped_for(model.method_name, planes if model.weights is None else PLANES_OF_METHOD[model.method_name])
     templates = {loaded.name: loaded for loaded in (load_template(name, shipped) for name in model.template_names)}
     reasons = []
     for k, found in enumerate(inferred.model.objects):
+        if is_judged_whole(found) or not found.score_terms:
+            reasons.append(Reason(found))
+            continue
         weights = load_weights(model.weights or found.template, shipped)
-        second = runner_up(inferred, k, templates[found.template], weights, used)
-        reasons.append(Reason(found, segments_of(inferred, k), used, second))
+        second = runner_up(inferred, k, templates[found.template], weights, search)
+        reasons.append(Reason(found, segments_of(inferred, k), search, second))
     return reasons

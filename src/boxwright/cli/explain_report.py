@@ -12,12 +12,23 @@ if TYPE_CHECKING:
     from boxwright.runner_up import RunnerUp, Search, Segments
     from boxwright.types import Object
 
+WHOLE = (
+    "Each is judged by itself, as a whole box: the score is the log odds that it is one, the terms are their summands "
+    "(docs/maths.md, eq. 90). None came second."
+)
+RECAST = (
+    "its segments were found as another template's, and its shape tells this one; the other's terms, which made the "
+    "score, are not kept"
+)
 LISTS = {"exact": "the exact search's list of all assignments", "staged": "the staged search's list"}
 
 
 @dataclass(frozen=True)
 class Reason:
-    """Why an object: `segments` and `search` are known where it was found just now, not where a file tells it."""
+    """Why an object: `segments` and `search` are known of an assignment that was found just now.
+
+    A file does not tell them, and a whole box is no assignment.
+    """
 
     found: Object
     segments: Segments | None = None
@@ -62,7 +73,12 @@ def _as_json(reason: Reason) -> dict[str, Any]:
 
 
 def print_reasons(reasons: list[Reason], path: Path, planes: str | None) -> None:
-    """Each object's terms, then what came second and why; `planes` is the front end that numbered the segments."""
+    """Each object's terms, then what came second and why; `planes` is the front end of a cloud's segments.
+
+    Of a model it is None.
+    """
+    from boxwright.runner_up import is_judged_whole
+
     out = console()
     if not reasons:
         out.print(f"{path}: no object", soft_wrap=True)
@@ -74,13 +90,18 @@ def print_reasons(reasons: list[Reason], path: Path, planes: str | None) -> None
             out.print(f"No second of free segments in {LISTS[reason.search]}.\n")
         else:
             _print_second(reason.found, reason.segments, reason.second)
-    if any(reason.segments is None for reason in reasons):
+    if any(is_judged_whole(reason.found) for reason in reasons):
+        out.print(WHOLE, soft_wrap=True)
+    elif planes is None and any(reason.found.score_terms for reason in reasons):
         out.print("What came second is told of the cloud itself: boxwright explain CLOUD")
-    if planes is not None and reasons:
+    if planes is not None and any(reason.segments is not None for reason in reasons):
         out.print(f"Segments are numbered as by: boxwright segment {path} --planes {planes}", soft_wrap=True)
 
 
 def _print_terms(k: int, found: Object) -> None:
+    if not found.score_terms:
+        console().print(f"object {k}: {found.template}, score {found.score:.4f}: {RECAST}\n", soft_wrap=True)
+        return
     made = table(
         f"object {k}: {found.template}, score {found.score:.4f}", "term", "kind", "value", "weight", "weight x value"
     )

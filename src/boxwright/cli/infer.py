@@ -8,17 +8,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from boxwright.cli.groups import grouped
+from boxwright.cli.known_options import KnownOptions
 from boxwright.cli.options import (
     CloudsOrPosesArgument,
     InputsOption,
     JsonOption,
-    KnownOptions,
     ModelOptions,
     OutOption,
     PosesOption,
     ReadOptions,
     SceneOptions,
-    VerboseOption,
 )
 
 if TYPE_CHECKING:
@@ -28,6 +27,14 @@ FigureOption = Annotated[bool, typer.Option("--figure", help="Draw NAME.png besi
 
 MjcfOption = Annotated[bool, typer.Option("--mjcf", help="Write NAME_K.mjcf too, for MuJoCo.")]
 SdfOption = Annotated[bool, typer.Option("--sdf", help="Write NAME_K.sdf too, for Gazebo.")]
+VerboseOption = Annotated[
+    bool,
+    typer.Option(
+        "--verbose",
+        help="Tell too why candidates were refused, which given size a box has, from where hidden parts would be seen, "
+        "and the time of each stage; with --json the refusals alone.",
+    ),
+]
 
 
 @grouped
@@ -74,6 +81,7 @@ def infer(
 
     inputs = inputs_of(clouds, poses, model)
     sizes = known.sizes(model.method_name)
+    model.refuse_unfit(scene)
     draw = frame_figure_drawer() if figure else None
     formats = ["urdf", *(["mjcf"] if mjcf else []), *(["sdf"] if sdf else [])]
 
@@ -98,6 +106,6 @@ def infer(
 
     outcomes = answer_each(inputs, answer, lambda outcome: print_outcome(outcome, verbose, as_json), jobs, "infer")
     if as_json:
-        print_json(outcomes)
+        print_json(outcomes, verbose)
     if any(outcome.refusal for outcome in outcomes):
         raise typer.Exit(1)

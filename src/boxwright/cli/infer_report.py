@@ -36,16 +36,16 @@ def print_outcome(outcome: Outcome[Told], verbose: bool, as_json: bool) -> None:
     out.print(object_table(head, model.objects) if model.objects else f"[bold]{head}[/]\n")
     if verbose and outcome.answer is not None:
         for line in outcome.answer.refused:
-            out.print(line, highlight=False)
+            out.print(line, markup=False, soft_wrap=True)
         for k, found in enumerate(model.objects):
             print_knowledge(k, found, model.up)
         print_stages(model.seconds)
     print_files(outcome.files)
 
 
-def print_json(outcomes: list[Outcome[Told]]) -> None:
-    """All inputs as one JSON list: what was found in which files, or the error."""
-    print_summaries(outcomes, _as_json)
+def print_json(outcomes: list[Outcome[Told]], verbose: bool) -> None:
+    """All inputs as one JSON list: what was found in which files, or the error; what was refused too if `verbose`."""
+    print_summaries(outcomes, lambda told: _as_json(told) | ({"refused": list(told.refused)} if verbose else {}))
 
 
 def _as_json(told: Told) -> dict[str, Any]:
@@ -74,7 +74,8 @@ def print_knowledge(number: int, found: Object, up: Vector) -> None:
     out = console()
     if found.size is not None:
         outer = " x ".join(f"{1000 * metres:.0f}" for metres in found.size.outer_dimensions)
-        out.print(f"{number} {found.template} has the size {found.size.name} ({outer} mm outside)")
+        told = f"{found.size.name} (length x width x height {outer} mm outside)"
+        out.print(f"{number} {found.template} has the size {told}", soft_wrap=True)
     for part in found.parts:
         if part.seen_from is None or part.state is None:
             continue
@@ -83,7 +84,7 @@ def print_knowledge(number: int, found: Object, up: Vector) -> None:
         )
         way = ", ".join(f"{coordinate:.2f}" for coordinate in part.seen_from)
         how = f"hidden ({part.state.hidden:.2f}); seen from ({way}), {height:.0f} deg above the horizon"
-        out.print(f"{number} {found.template} {part.name}: {how}")
+        out.print(f"{number} {found.template} {part.name}: {how}", soft_wrap=True)
 
 
 def _size(found: Object) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from boxwright.cli.values import Bounds, OuterSize, Triple
+from boxwright.cli.values import Bounds, Triple
 
 if TYPE_CHECKING:
     from boxwright.fusion import Fused
@@ -112,7 +112,7 @@ UpOption = Annotated[
     Triple | None,
     typer.Option(
         "--up",
-        parser=Triple.parse,
+        parser=Triple.parse_direction,
         metavar="X,Y,Z",
         help="Direction away from the floor, input's frame; found from the cloud unless given.",
         rich_help_panel=MODEL,
@@ -135,26 +135,7 @@ PlanesOption = Annotated[
         callback=_known_planes,
         metavar="NAME",
         help="How planes are found. grid: grown on the image grid, or on voxels; ransac: as of 2011. "
-        "Default: that of the method (paper: ransac, exact: grid); segment, label: grid.",
-        rich_help_panel=MODEL,
-    ),
-]
-SizeOption = Annotated[
-    list[OuterSize] | None,
-    typer.Option(
-        "--size",
-        parser=OuterSize.parse,
-        metavar="LxWxH",
-        help="Outer size in mm that a box in view has, in any order, e.g. 400x300x200; repeatable. --method fitted.",
-        rich_help_panel=MODEL,
-    ),
-]
-CatalogueOption = Annotated[
-    Path | None,
-    typer.Option(
-        "--catalogue",
-        metavar="FILE.toml",
-        help="Outer sizes that boxes in view may have (docs/formats.md). --method fitted.",
+        "Default: that of the method (fitted, exact: grid; paper: ransac); segment, label: grid.",
         rich_help_panel=MODEL,
     ),
 ]
@@ -175,7 +156,6 @@ PosesOption = Annotated[
 ]
 OutOption = Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the folders of answers.")]
 InputsOption = Annotated[int, typer.Option("--jobs", min=1, help="Inputs worked on at once.")]
-VerboseOption = Annotated[bool, typer.Option("--verbose", help="Print the time of each stage too.")]
 
 
 @dataclass(frozen=True)
@@ -233,6 +213,12 @@ class ModelOptions:
 
         return tuple(self.template) if self.template else TEMPLATES_OF_METHOD[self.method_name]
 
+    def refuse_unfit(self, scene: SceneOptions) -> None:
+        """Refuses what fits no cloud before any is read; raises as `boxwright.pipeline.load_models` does."""
+        from boxwright.pipeline import load_models
+
+        load_models(self.method_name, self.template_names, self.weights, scene.planes)
+
     def infer_frames(
         self,
         frames: Sequence[PosedCloud],
@@ -281,23 +267,3 @@ class ModelOptions:
             sizes=sizes,
             read_seconds=read_seconds,
         )
-
-
-@dataclass(frozen=True)
-class KnownOptions:
-    """What is known of the boxes in view."""
-
-    size: SizeOption = None
-    catalogue: CatalogueOption = None
-
-    def sizes(self, method: str) -> tuple[KnownSize, ...]:
-        """The outer sizes given, those of the command line first.
-
-        Raises typer.BadParameter where the method knows no sizes, and as `read_sizes` does.
-        """
-        from boxwright.io.sizes import known_size, read_sizes
-
-        if (self.size or self.catalogue) and method != "fitted":
-            raise typer.BadParameter(f"method {method!r} knows no sizes; add --method fitted", param_hint="--size")
-        typed = tuple(known_size(f"{size.text} mm", size.outer_mm) for size in self.size or ())
-        return typed + (read_sizes(self.catalogue) if self.catalogue else ())

@@ -33,7 +33,7 @@ def head_of(cloud: Path, count: int, what: str, seconds: Seconds) -> str:
 def print_stages(seconds: Seconds) -> None:
     """The time of each stage."""
     stages = ", ".join(f"{stage} {1000 * spent:.0f}" for stage, spent in seconds.stages.items())
-    console().print(f"ms: read {1000 * seconds.read:.0f}, {stages}")
+    console().print(f"ms: read {1000 * seconds.read:.0f}, {stages}", soft_wrap=True)
 
 
 def print_files(files: tuple[Path, ...]) -> None:

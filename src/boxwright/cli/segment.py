@@ -15,13 +15,13 @@ from boxwright.cli.options import (
     OutOption,
     ReadOptions,
     SceneOptions,
-    VerboseOption,
 )
 
 if TYPE_CHECKING:
     from boxwright.types import Segmentation
 
 FigureOption = Annotated[bool, typer.Option("--figure/--no-figure", help="Draw NAME_segments.png too.")]
+VerboseOption = Annotated[bool, typer.Option("--verbose", help="Print the time of each stage too.")]
 
 
 @grouped

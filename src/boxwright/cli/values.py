@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import typer
 
 
 class Triple(NamedTuple):
-    """A point or a direction, input's frame."""
+    """A point or a direction, input's frame; finite."""
 
     x: float
     y: float
@@ -17,8 +18,20 @@ class Triple(NamedTuple):
     @staticmethod
     def parse(text: str) -> Triple:
         """From "X,Y,Z"."""
+        from boxwright.types.checks import require_finite
+
         x, y, z = _numbers(text, 3)
+        _fits(require_finite, text, (x, y, z))
         return Triple(x, y, z)
+
+    @staticmethod
+    def parse_direction(text: str) -> Triple:
+        """From "X,Y,Z", of any length but 0."""
+        from boxwright.types.checks import require_direction
+
+        direction = Triple.parse(text)
+        _fits(require_direction, text, direction)
+        return direction
 
 
 class Bounds(NamedTuple):
@@ -58,6 +71,14 @@ class OuterSize(NamedTuple):
         except ValueError as error:
             raise typer.BadParameter(f"{error}; {mend}") from None
         return OuterSize(text, (first, second, third))
+
+
+def _fits(check: Callable[[str, tuple[float, ...]], None], text: str, values: tuple[float, ...]) -> None:
+    """A wrong command line where a check of the types refuses the values."""
+    try:
+        check(repr(text), values)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from None
 
 
 def _numbers(text: str, count: int) -> list[float]:

@@ -10,6 +10,7 @@ from typing import Literal
 from boxwright import _core
 from boxwright.io.cloud_writers import write_pcd, write_ply
 from boxwright.io.intrinsics import read_intrinsics
+from boxwright.types.checks import require_finite
 from boxwright.types.cloud import Cloud
 from boxwright.types.intrinsics import Intrinsics
 from boxwright.types.truth import Vector
@@ -78,6 +79,7 @@ def _viewpoint(values: Sequence[float] | None) -> Vector | None:
     if len(values) != 3:
         raise ValueError(f"viewpoint: has {len(values)} values; must be x, y, z")
     x, y, z = (float(value) for value in values)
+    require_finite("viewpoint", (x, y, z))
     return (x, y, z)
 
 

@@ -10,6 +10,7 @@ import msgspec
 
 from boxwright import _core
 from boxwright.types import KnownSize
+from boxwright.types.checks import require_positive
 
 MM = 1000.0
 """Millimetres in a metre: people measure boxes in mm."""
@@ -54,7 +55,8 @@ def read_sizes(path: str | os.PathLike[str]) -> tuple[KnownSize, ...]:
 
 
 def known_size(name: str, outer_mm: tuple[float, float, float]) -> KnownSize:
-    """A size given in millimetres. Raises ValueError where no box has it."""
+    """A size given in millimetres. Raises ValueError, naming it, where no box has it."""
+    require_positive(f"size {name!r}: outer_mm", outer_mm)
     length, width, height = (mm / MM for mm in outer_mm)
     size = KnownSize(name=name, outer=(length, width, height))
     _core.check_sizes([(size.name, size.outer)])

@@ -64,7 +64,10 @@ class PartState(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Part(msgspec.Struct, frozen=True, kw_only=True):
-    """One panel. `corners` (4, 3) are None where it is absent or cannot be placed; `points` counts its readings."""
+    """One panel; `points` counts its readings.
+
+    `corners` (4, 3) of a base or side that was not observed are where the body implies it; those of a flap are None.
+    """
 
     name: str
     observed: bool
@@ -72,7 +75,10 @@ class Part(msgspec.Struct, frozen=True, kw_only=True):
     corners: Corners | None
     points: int
     probability: float | None = None
-    """That its points are this panel's; None where the method has none, or where it was not observed."""
+    """That its points are this panel's; None where the method has none, or no readings came into question.
+
+    Of a part of a whole box that was not observed it is that of the readings that came into question and were not told.
+    """
     seen_from: Vector | None = None
     """Of a hidden part: unit vector from it towards the nearest place that would see it; None where none is known."""
 

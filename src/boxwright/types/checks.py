@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 UNIT_TOLERANCE = 1e-6
 """How far the length of a unit vector or quaternion may be from 1: above float32 rounding, below any real mistake."""
+
+SHORTEST_DIRECTION, LONGEST_DIRECTION = 1e-6, 1e6
+"""Vectors of other lengths are mistakes, not directions: 0 tells none, and squares must neither vanish nor overflow."""
 
 NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_]*$"
 """Names of templates, parts and joints: safe as they stand in URDF, MJCF, ROS and file names."""
@@ -31,9 +34,21 @@ def require_unit(name: str, values: tuple[float, ...]) -> None:
         raise ValueError(f"{name} has length {length:.9g}; it must be a unit vector (length 1)")
 
 
+def require_direction(name: str, values: Sequence[float]) -> None:
+    """Refuse what is no direction in space: three finite numbers; any length will do, within reason."""
+    if len(values) != 3:
+        raise ValueError(f"{name} has {len(values)} values; it must be x, y, z")
+    require_finite(name, values)
+    length = math.hypot(*values)
+    if not SHORTEST_DIRECTION <= length <= LONGEST_DIRECTION:
+        raise ValueError(f"{name} has length {length:g}; a direction is told by a vector of length 1, or near it")
+
+
 def require_positive(name: str, values: Iterable[float]) -> None:
     """Refuse anything that is not finite and above 0."""
     for value in values:
+        if math.isnan(value):
+            raise ValueError(f"{name} holds nan, which is no number; it must be above 0")
         if not (math.isfinite(value) and value > 0.0):
             raise ValueError(f"{name} holds {value}; it must be above 0")
 

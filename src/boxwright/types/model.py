@@ -99,7 +99,8 @@ class Inference(msgspec.Struct, frozen=True, kw_only=True):
 class ScoreTerm(msgspec.Struct, frozen=True, kw_only=True):
     """One feature or relation of the template, summed over its parts, in radians, metres or a count as its kind says.
 
-    `kind` is the paper's name ("phi 1", "Gamma 3"); `contribution` = weight x value is its share of the score.
+    `kind` is the paper's name ("phi 1", "Gamma 3"), or "evidence" of what a whole box was judged by: a feature, or all
+    trees together (docs/maths.md, eq. 90); `contribution` = weight x value is its share of the score.
     """
 
     name: str
@@ -116,10 +117,12 @@ class ScoreTerm(msgspec.Struct, frozen=True, kw_only=True):
 class Object(msgspec.Struct, frozen=True, kw_only=True):
     """One articulated object.
 
-    `score` is J(G). `dimensions` and `outer_dimensions` are length, width, height and `thickness` the board's, metres;
-    `pose` is input_from_object. They are None where too little was seen to say (paper's method: fewer than two sides),
-    as are probabilities that the method does not have. `parts` lists every part of the template; `joints` what turns;
-    `score_terms` what the score is made of; `size` is the given size that it has, None without one.
+    `score` is the log odds of a whole box (method fitted: docs/maths.md, eq. 90), or J(G) of an assignment (eq. 1), and
+    `probability` that of the same; `score_terms` sum to the score, and are empty where they are not known. `dimensions`
+    and `outer_dimensions` are length, width, height and `thickness` the board's, metres; `pose` is input_from_object.
+    They are None where too little was seen to say (paper's method: fewer than two sides), as are probabilities that the
+    method does not have. `parts` lists every part of the template; `joints` what turns; `size` is the given size that
+    it has, None without one.
     """
 
     template: str
