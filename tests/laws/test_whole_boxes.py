@@ -138,22 +138,3 @@ def test_a_box_is_found_that_only_an_assignment_of_its_segments_proposes(index: 
     score = score_frame(inferred.model.objects, inferred.object_labels, inferred.part_labels, frame.truth, frame.labels)
     assert len(inferred.model.objects) == len(frame.truth.boxes)
     assert all(box.object is not None for box in score.boxes)
-
-
-def test_what_is_told_of_a_parts_state_suits_what_is_told_of_its_readings() -> None:
-    """A part without readings is nowhere seen, one with readings is as probable as its state says, and each has one."""
-    observed = unobserved = 0
-    for category, seed, index in (("cake", 6, 0), ("large", 501, 254), ("pizza", 501, 11), ("medium", 501, 151)):
-        for found in boxwright.infer(cloud_of(make_frame(category, seed, index))).model.objects:
-            for part in found.parts:
-                assert part.state is not None, part.name
-                assert sum((part.state.seen, part.state.hidden, part.state.absent)) == pytest.approx(1.0)
-                if part.observed:
-                    assert part.state.seen == part.probability
-                    assert part.state.seen >= 0.5
-                else:
-                    assert part.state.seen == 0.0
-                    assert part.probability is None
-                observed, unobserved = observed + part.observed, unobserved + (not part.observed)
-    assert observed >= 25
-    assert unobserved >= 5

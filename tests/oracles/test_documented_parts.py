@@ -10,7 +10,7 @@ from boxwright.types import Cloud
 
 
 def test_scores_and_unseen_parts_are_as_the_page_says() -> None:
-    boxes = hidden = flaps = untold = 0
+    boxes = hidden = flaps = 0
     for index, category in enumerate(("small", "carton", "medium", "large", "cake", "carton", "small", "medium")):
         frame = make_frame(category, 91, index, boxes=2)
         cloud = Cloud(points=frame.points, width=frame.width, height=frame.height, viewpoint=(0.0, 0.0, 0.0))
@@ -25,13 +25,16 @@ def test_scores_and_unseen_parts_are_as_the_page_says() -> None:
                 if part.observed:
                     assert part.probability is not None
                     assert part.probability >= 0.5
+                    assert part.state is not None
+                    assert part.state.seen == part.probability
                     continue
                 is_flap = part.name.startswith(("flap", "tuck"))
                 assert (part.corners is None) == is_flap
                 assert part.points == 0
-                assert part.probability is None or part.probability < 0.5 or part.name.startswith("tuck")
+                assert part.probability is None
+                assert part.state is not None
+                assert part.state.seen == 0.0
                 hidden += not is_flap
                 flaps += is_flap
-                untold += part.probability is not None
     assert boxes >= 10
-    assert min(hidden, flaps, untold) >= 3, (hidden, flaps, untold)
+    assert min(hidden, flaps) >= 3, (hidden, flaps)

@@ -97,7 +97,7 @@ pub fn ground_among(
         return Ok(no_plane(organized, settings));
     };
     let plane = refit(chosen, &footing.plane);
-    refuse_from_below(viewpoint, seen, chosen, &Footing { plane, ..footing.clone() })?;
+    refuse_from_below(viewpoint, seen, chosen, &Footing { plane, ..footing.clone() }, settings)?;
     let is_ground = footing.free_cells as f64 >= MIN_FREE_SHARE * footing.ground_cells as f64;
     let is_room = |&p: &usize| p != chosen && seen.is_large[p];
     let room = (0..seen.planes.len()).filter(is_room).map(|p| seen.planes[p].plane).collect();
@@ -216,24 +216,35 @@ fn refuse_rivals(
 }
 
 /// Refuses a support that the sensor would have had to see through: more lies behind its readings than before them.
-fn refuse_from_below(viewpoint: Option<&Vec3>, seen: &SeenPlanes, chosen: usize, footing: &Footing) -> Result<()> {
+fn refuse_from_below(
+    viewpoint: Option<&Vec3>,
+    seen: &SeenPlanes,
+    chosen: usize,
+    footing: &Footing,
+    settings: &PerceptionSettings,
+) -> Result<()> {
     let Some(viewpoint) = viewpoint else { return Ok(()) };
     let through = seen_through(seen.surfels, &seen.planes[chosen].sites, &footing.plane, viewpoint);
     let from_above = footing.plane.height_of(viewpoint) > 0.0;
     if from_above && (through < MIN_THROUGH || through < THROUGH_FACTOR * footing.above) {
         return Ok(());
     }
-    Err(InputError::new("the support plane's visible face looks away from the viewpoint")
-        .mend("if the cloud has y up and z backwards, say --frame opengl"))
+    let mend = if settings.up.is_some() {
+        "the given up may point down: --up is the direction away from the support; turn it round or leave it out"
+    } else {
+        "if the cloud has y up and z backwards, say --frame opengl"
+    };
+    Err(InputError::new("the support plane's visible face looks away from the viewpoint").mend(mend))
 }
 
 /// Up where the cloud has no plane at all: as told, else as such a cloud is usually held, with a warning.
 fn no_plane(organized: bool, settings: &PerceptionSettings) -> Ground {
     let (up, name) = match (settings.up, organized) {
-        (Some(up), _) => (up.normalize(), "as given"),
+        (Some(up), _) => (up.normalize(), "as given, check it"),
         (None, true) => (-Vec3::y(), "-y, an upright camera's"),
         (None, false) => (Vec3::z(), "+z"),
     };
-    let warnings = vec![format!("no plane to stand on was found; up is {name}")];
+    let square = if settings.up.is_some() { " square to it" } else { "" };
+    let warnings = vec![format!("no plane{square} to stand on was found; up is {name}")];
     Ground { up, support: None, chosen: None, room: vec![], warnings }
 }
