@@ -7,7 +7,9 @@ use super::evidence::{Evidence, Sheet};
 use super::features;
 use super::flap_scan::ScannedFlap;
 use super::grow::{competing, sound, weigh, FoundBox, COARSE_STRIDE, FINE_M};
-use super::hanging::{scan_flaps, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, LAST_SCAN};
+use super::hanging::{
+    scan_flaps, scan_flaps_into_box, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN,
+};
 use super::judgement::{probability, Judgement};
 use super::label::label;
 use super::labels::{Labels, Present};
@@ -113,7 +115,7 @@ fn fit_to_all(
 /// near its edge from one that looks further.
 fn look_again(sight: &Sight, found: FoundBox, settings: &FitSettings) -> FoundBox {
     let (body, present) = (&found.solution.body, found.present);
-    let mut flaps = scan_flaps(sight, body, FINE_M, LAST_SCAN);
+    let mut flaps = scan_flaps(sight, body, FINE_M, FINE_SCAN);
     let fitted_score = |k: usize| {
         let evidence = Sheet::new(body, Role::Flap(k), &sight.eye).look(sight, FINE_M);
         evidence.met - 2.0 * evidence.through
@@ -124,7 +126,11 @@ fn look_again(sight: &Sight, found: FoundBox, settings: &FitSettings) -> FoundBo
     let found = taken_up(sight, found, &flaps, settings);
     let is_missed = found.present.flaps.map(|is_there| !is_there);
     let hidden = scan_hidden_flaps(sight, &found.solution.body, FINE_M, is_missed);
-    taken_up(sight, found, &hidden, settings)
+    let found = taken_up(sight, found, &hidden, settings);
+    // Last: what lies in a box may look like a flap that hangs into it, and takes no other flap's place.
+    let is_missed = found.present.flaps.map(|is_there| !is_there);
+    let into_box = scan_flaps_into_box(sight, &found.solution.body, FINE_M, is_missed);
+    taken_up(sight, found, &into_box, settings)
 }
 
 /// Fitted with these flaps too, where more is held then: a flap fitted to what is none costs more than it holds.

@@ -7,10 +7,10 @@ use super::labels::Present;
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Role};
 
-/// Hanging into the box to hanging down. Nearer to its side's plane it is what shows of a wall a little higher.
-const FLAP_ANGLES_RAD: [f64; 2] = [-1.05, 4.4];
-/// While boxes compete: pushed a little into the box, to hanging down.
-const COMPETING_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
+/// Pushed a little into the box, to hanging down.
+const FLAP_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
+/// Hanging into the box. Nearer to its side's plane it is what shows of a wall a little higher.
+const INTO_BOX_RAD: [f64; 2] = [-1.05, -0.2];
 
 /// No flap is longer than the box is across, but for this share and more.
 const LONGEST_SHARE: f64 = 1.06;
@@ -26,10 +26,9 @@ pub struct FlapScan {
     columns: usize,
 }
 
-/// Of a proposal, of a body that is fitted and still competes, and of a box that has won.
-pub const COARSE_SCAN: FlapScan = FlapScan { angles_rad: COMPETING_ANGLES_RAD, peaks: 2, columns: 6 };
-pub const FINE_SCAN: FlapScan = FlapScan { angles_rad: COMPETING_ANGLES_RAD, peaks: 4, columns: 12 };
-pub const LAST_SCAN: FlapScan = FlapScan { angles_rad: FLAP_ANGLES_RAD, ..FINE_SCAN };
+/// Of a proposal, and of a body that is fitted.
+pub const COARSE_SCAN: FlapScan = FlapScan { angles_rad: FLAP_ANGLES_RAD, peaks: 2, columns: 6 };
+pub const FINE_SCAN: FlapScan = FlapScan { angles_rad: FLAP_ANGLES_RAD, peaks: 4, columns: 12 };
 
 /// The flap on each of a body's top edges, and none where the readings speak against any.
 pub fn scan_flaps(sight: &Sight, body: &FittedBody, model_m: f64, by: FlapScan) -> [Option<ScannedFlap>; 4] {
@@ -45,6 +44,21 @@ fn flap_range(body: &FittedBody, k: usize, model_m: f64, by: FlapScan) -> ScanRa
     ScanRange { angles_rad, longest_m, model_m, peaks, columns, over_hidden: false }
 }
 
+/// The flaps on those edges that are asked for that hang into the box.
+pub fn scan_flaps_into_box(
+    sight: &Sight,
+    body: &FittedBody,
+    model_m: f64,
+    is_asked: [bool; 4],
+) -> [Option<ScannedFlap>; 4] {
+    let by = FlapScan { angles_rad: INTO_BOX_RAD, ..FINE_SCAN };
+    std::array::from_fn(|k| {
+        let found =
+            is_asked[k].then(|| scan(sight, &HingeLine::of_side(body, k), &flap_range(body, k, model_m, by)))?;
+        found.filter(is_flap)
+    })
+}
+
 /// The flaps on those edges that are asked for, looked for beyond what hides them near their hinges.
 pub fn scan_hidden_flaps(
     sight: &Sight,
@@ -53,7 +67,7 @@ pub fn scan_hidden_flaps(
     is_asked: [bool; 4],
 ) -> [Option<ScannedFlap>; 4] {
     std::array::from_fn(|k| {
-        let range = ScanRange { over_hidden: true, ..flap_range(body, k, model_m, LAST_SCAN) };
+        let range = ScanRange { over_hidden: true, ..flap_range(body, k, model_m, FINE_SCAN) };
         let found = is_asked[k].then(|| scan(sight, &HingeLine::of_side(body, k), &range))?;
         found.filter(is_flap)
     })

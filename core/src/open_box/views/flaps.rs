@@ -1,7 +1,7 @@
 //! Of several views the one that sees a flap best tells of it, and all say whether it is there.
 
 use super::super::evidence::look_from_all;
-use super::super::hanging::{is_there, scan_flaps, scan_tucks, with_flaps, with_tucks, LAST_SCAN};
+use super::super::hanging::{is_there, scan_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN};
 use super::super::labels::Present;
 use super::super::sight::Sight;
 use crate::fit::{layout, FittedBody, Role};
@@ -19,7 +19,7 @@ pub fn best_flaps(
     others: &[(FittedBody, Present)],
     model_m: f64,
 ) -> (FittedBody, Present) {
-    let scanned = sights.iter().map(|sight| with_flaps(body, &scan_flaps(sight, body, model_m, LAST_SCAN)));
+    let scanned = sights.iter().map(|sight| with_flaps(body, &scan_flaps(sight, body, model_m, FINE_SCAN)));
     let guesses: Vec<(FittedBody, Present)> = others.iter().cloned().chain(scanned).collect();
     let (mut out, mut has) = (body.clone(), *present);
     for k in 0..4 {
