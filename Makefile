@@ -131,8 +131,8 @@ weights-fitted:
 	$(BIN)/python -m benchmarks.coverage $(SETS)/judge --scales
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, and 200 and 60 without an open box)
-	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 6001
-	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 6002 --category none
+	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 7001
+	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 7002 --category none
 	for method in fitted exact paper; do \
 		$(BIN)/boxwright evaluate $(SETS)/boxes --method $$method -o out/boxes_$$method.json; \
 		$(BIN)/boxwright evaluate $(SETS)/no_boxes --method $$method -o out/no_boxes_$$method.json; \

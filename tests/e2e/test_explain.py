@@ -64,8 +64,8 @@ def _without_image(category: str, seed: int, folder: Path) -> Path:
 
 def test_a_cloud_without_an_image_is_explained_as_an_assignment(tmp_path: Path) -> None:
     cases = 0
-    for category in ("small", "large"):
-        answer = boxwright("explain", _without_image(category, 3, tmp_path), "--json", "--search", "exact")
+    for category, seed in (("large", 3), ("carton", 5)):
+        answer = boxwright("explain", _without_image(category, seed, tmp_path), "--json", "--search", "exact")
         assert answer.status == 0, answer.err
         assert f"{category}.npy: warning: " in answer.err
         for told in json.loads(answer.out):
@@ -75,6 +75,14 @@ def test_a_cloud_without_an_image_is_explained_as_an_assignment(tmp_path: Path) 
             assert "evidence" not in {term["kind"] for term in told["score_terms"]}
             cases += 1
     assert cases == 2
+
+
+def test_a_fit_that_has_not_converged_is_no_object_and_told(tmp_path: Path) -> None:
+    answer = boxwright("infer", _without_image("small", 3, tmp_path), "-o", tmp_path, "--json", "--verbose")
+    assert answer.status == 0, answer.err
+    (told,) = json.loads(answer.out)
+    assert told["objects"] == []
+    assert told["refused"] == ["no object of carton: it had not converged after 60 steps"]
 
 
 def test_a_box_that_its_shape_tells_anew_says_that_its_terms_are_gone(tmp_path: Path) -> None:
