@@ -58,7 +58,7 @@ impl<G: Guard> Closer<'_, G> {
     }
 
     /// Of a push that ends just before closed (no room over flaps that lie there): let go where the crease still lets it rest closed.
-    fn laid_short(&self, flap: usize, why: &WhyNot, pushed: impl Fn(f64) -> Tried) -> Tried {
+    fn laid_short(&self, flap: usize, why: &WhyNot, pushed: &impl Fn(f64) -> Tried) -> Tried {
         let settings = self.settings;
         let lay_rad = self.load.folds[flap].held_rad(settings.closed_rad - settings.rest_aim_rad);
         let ends_late = why.at_rad.is_some_and(|at_rad| at_rad <= lay_rad + settings.layer_rad);
