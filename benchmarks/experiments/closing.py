@@ -20,6 +20,9 @@ QUICK = 2
 FEW = 12
 FEW_KINDS = (("layered", "pre_broken"), ("layered", "ordinary"), ("paper", "ordinary"))
 
+ROOM_FOR_LEGEND = 120.0
+"""Per cent: above all bars."""
+
 CLAIM = (
     "for the three flaps closer to the arm the planner finds valid paths in 90 % of the experiments, for the farthest "
     "in 50 %."
@@ -235,4 +238,5 @@ def _draw(found: list[Record], figure: Figure) -> None:
         axis.set_xticks(places, names, fontsize=5, rotation=45)
         axis.set_title(f"{far} flaps", fontsize=9)
     axes[0].set_ylabel("% of open flaps")
-    axes[0].legend(fontsize=7)
+    axes[0].set_ylim(0.0, ROOM_FOR_LEGEND)
+    axes[0].legend(fontsize=7, loc="upper right", ncols=2)

@@ -17,6 +17,7 @@ from boxwright.io.plans import save_plan
 from boxwright.io.simulations import load_simulation
 from boxwright.io.truth import save_truth
 from boxwright.simulation.physics import Arm, load_robot, true_box
+from boxwright.simulation.physics.pictures import CAPTION_HEIGHT_PX
 from boxwright.types import FlapOutcome, Plan, Truth
 from support.command import boxwright
 from support.finger import push_shut
@@ -78,6 +79,15 @@ def test_a_plan_is_followed_and_told(plan_dir: Path, tmp_path: Path) -> None:
         assert strip.size[0] == 1600
         assert np.asarray(strip.convert("RGB")).std() > 20
         assert film.n_frames > 40  # type: ignore[attr-defined]
+        edges = [_edges(film, number) for number in range(0, film.n_frames, 4)]  # type: ignore[attr-defined]
+    assert all((edge == edges[0]).all() for edge in edges), "what moves is cut off by the picture's edge"
+
+
+def _edges(film: Image.Image, number: int) -> np.ndarray:
+    """The outermost pixels of a still, the caption left out."""
+    film.seek(number)
+    still = np.asarray(film.convert("RGB"))[CAPTION_HEIGHT_PX + 1 :]
+    return np.concatenate([still[0], still[-1], still[:, 0], still[:, -1]])
 
 
 def test_without_a_truth_the_inferred_box_is_closed_and_twice_is_the_same(plan_dir: Path, tmp_path: Path) -> None:

@@ -90,17 +90,20 @@ def test_the_arm_begins_and_ends_ready_and_closes_in_order(plans: list[tuple[Pro
             assert (np.diff(segment.hinge_angle_rad) < 1e-9).all(), "a flap is pushed inward only"
             if segment is last[segment.flap]:
                 assert segment.gripper_opening_m == 0.0
-                assert -np.radians(13.0) - ROUNDING < segment.hinge_angle_rad[-1] < most_rad
+                assert segment.hinge_angle_rad[-1] > -np.radians(13.0) - ROUNDING
+                # One that has no room at closed is let go where it comes to rest closed.
+                rest_rad = plan.flaps[segment.flap].rest_rad
+                assert rest_rad is not None
+                assert segment.hinge_angle_rad[-1] < most_rad or rest_rad < np.radians(12.5)
                 continue
-            # Turned in stages, it springs back from each; the couple that is the last of them leaves room for a push.
+            # Turned in stages, it springs back from each; a couple that is the last of them leaves room for a push.
             after = pushed[number + 1].hinge_angle_rad
             assert segment.flap == pushed[number + 1].flap
             assert after is not None
             assert 0.0 < after[0] - segment.hinge_angle_rad[-1] < np.radians(30.0)
             is_fork = segment.gripper_opening_m > 0.0
             assert not is_fork or segment.gripper_opening_m > (problem.box.thickness or 0.0)
-            if pushed[number + 1] is last[segment.flap]:
-                assert is_fork
+            if is_fork and pushed[number + 1] is last[segment.flap]:
                 assert segment.hinge_angle_rad[-1] < np.radians(62.0) + ROUNDING
             forks += is_fork
         pushes += len(pushed)

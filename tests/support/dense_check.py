@@ -81,10 +81,14 @@ class Clearances:
         """For each segment the least distance of any body to anything, and of the fingers to the pushed flap apart."""
         closed: dict[str, float] = {}
         found = []
+        pushes = [segment for segment in plan.segments if segment.kind == "push"]
         for segment in plan.segments:
             found += self._of_segment(segment, closed)
             if segment.kind == "push" and segment.flap is not None:
-                closed[segment.flap] = plan.flaps[segment.flap].rest_rad or 0.0
+                pushes.pop(0)
+                # Turned in stages, it is left where the next begins.
+                then = pushes[0].hinge_angle_rad if pushes and pushes[0].flap == segment.flap else None
+                closed[segment.flap] = then[0] if then else plan.flaps[segment.flap].rest_rad or 0.0
         return found
 
     def _of_segment(self, segment: PlanSegment, closed: dict[str, float]) -> list[tuple[str, float]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from closing.measure import told
 from closing.problems import draw_problem
 
 from boxwright.planning import plan_closing
@@ -16,8 +17,8 @@ IN_STAGES = {12: "flap_3", 18: "flap_2"}
 """Flaps open beyond where fingers find room astride them, or the arm can follow at one go."""
 ASTRIDE = {3: "flap_2", 30: "flap_3", 47: "flap_0"}
 """Flaps that a way out that leans off the board would leave through the board's edge."""
-WAITING = (18, "flap_0", "flap_3")
-"""A box whose first flap closes only if the box may slide, and keeps the second open until then."""
+WAITING = ((1126, 11), "flap_0", ("flap_1", "flap_3"))
+"""A box with stiff creases whose first flap closes only if the box may slide, and keeps two others open till then."""
 
 AT_ONE_GO = {"fork": {"most_stages": 1}}
 HOLD_STILL = {"slides_home_rad": 0.0}
@@ -51,7 +52,10 @@ def test_fingers_come_to_a_flap_and_leave_it_without_catching_on_its_edge() -> N
 
 
 def test_what_waited_for_a_flap_that_may_slide_the_box_is_closed_after_it() -> None:
-    number, sliding, waiting = WAITING
-    plan, still = _plan(number), _plan(number, HOLD_STILL)
-    assert plan.order.index(sliding) < plan.order.index(waiting)
-    assert {still.flaps[name].status for name in (sliding, waiting)} == {"blocked"}
+    (seed, number), sliding, waiting = WAITING
+    model = draw_problem(number, seed).model
+    plan, still = (
+        plan_closing(model, ROBOT, np.eye(4), settings={**told("stiff"), **more}) for more in ({}, HOLD_STILL)
+    )
+    assert all(plan.order.index(sliding) < plan.order.index(name) for name in waiting)
+    assert {still.flaps[name].status for name in (sliding, *waiting)} == {"blocked"}

@@ -17,6 +17,10 @@ const STEP_RAD: f64 = 0.06;
 /// than 1 / friction.
 const GIVING_END_M: f64 = 0.015;
 const JAM_RAD: f64 = 1.279;
+/// Of two neighbours the one that comes below this first goes under the other, and its ends give way (docs/physics.md): counted on
+/// short of the 15 mm there, as upright boards that meet by a hair jam.
+const DOWN_RAD: f64 = 1.047;
+const GOING_UNDER_END_M: f64 = 0.011;
 /// Boards that meet this soon after the start met there already, by the model's error.
 const START_RAD: f64 = 0.09;
 
@@ -31,23 +35,9 @@ pub fn met(
     settings: &PlanningSettings,
 ) -> Option<Obstacle> {
     let moving = &problem.flaps[flap];
-    let others: Vec<(&str, [Vec3; 4])> = problem
-        .flaps
-        .iter()
-        .enumerate()
-        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] > settings.lying_rad)
-        .flat_map(|(k, other)| {
-            let tucks = other.tuck_corners(angles_rad[k]);
-            std::iter::once((other.name.as_str(), other.corners(angles_rad[k]))).chain(tucks)
-        })
-        .collect();
-    let down: Vec<(&str, [Vec3; 4])> = problem
-        .flaps
-        .iter()
-        .enumerate()
-        .filter(|&(k, other)| k != flap && has_extent(other) && angles_rad[k] <= settings.lying_rad)
-        .map(|(k, other)| (other.name.as_str(), shrunk(&other.corners(angles_rad[k]), GIVING_END_M)))
-        .collect();
+    let others = problem.flaps.iter().enumerate().filter(|&(k, other)| k != flap && has_extent(other));
+    let others: Vec<Beside> =
+        others.flat_map(|(k, other)| beside(moving, angles_rad[flap], other, angles_rad[k], settings)).collect();
     let from_rad = angles_rad[flap];
     let steps = ((from_rad - to_rad).abs() / STEP_RAD).ceil().max(1.0) as usize;
     for step in 1..=steps {
@@ -55,27 +45,64 @@ pub fn met(
         if (from_rad - angle_rad).abs() < START_RAD {
             continue;
         }
-        let board = shrunk(&moving.corners(angle_rad), GRAZE_M);
-        let jams = down.iter().filter(|_| angle_rad > JAM_RAD);
-        if let Some((name, _)) = others.iter().chain(jams).find(|(_, other)| quads_cross(&board, other)) {
-            return Some(Obstacle::Boards { flap: moving.name.clone(), other: (*name).to_string() });
+        let corners = moving.corners(angle_rad);
+        let [whole, inner] = [GRAZE_M, GOING_UNDER_END_M].map(|ends_m| shortened(&corners, ends_m, GRAZE_M));
+        let counts = |other: &&Beside| angle_rad > JAM_RAD || !other.gives_way;
+        let meets = |other: &Beside| quads_cross(if other.is_over { &inner } else { &whole }, &other.corners);
+        if let Some(other) = others.iter().filter(counts).find(|other| meets(other)) {
+            return Some(Obstacle::Boards { flap: moving.name.clone(), other: other.name.to_string() });
         }
     }
     None
+}
+
+/// A board that a moving flap may meet.
+struct Beside<'a> {
+    name: &'a str,
+    corners: [Vec3; 4],
+    /// It lies, and is pressed down by what does not come down on it steeply.
+    gives_way: bool,
+    /// The moving flap goes under it: the ends of that give way, not its own.
+    is_over: bool,
+}
+
+/// Another flap and what hangs on it.
+fn beside<'a>(
+    moving: &Flap,
+    from_rad: f64,
+    other: &'a Flap,
+    at_rad: f64,
+    settings: &PlanningSettings,
+) -> Vec<Beside<'a>> {
+    let gives_way = at_rad <= settings.lying_rad;
+    if gives_way {
+        let corners = shortened(&other.corners(at_rad), GIVING_END_M, GIVING_END_M);
+        return vec![Beside { name: &other.name, corners, gives_way, is_over: false }];
+    }
+    let are_neighbours = !are_opposite(moving, other);
+    // Of two that are down before anything moves the larger lies over the smaller.
+    let goes_under = at_rad > DOWN_RAD || (from_rad <= DOWN_RAD && moving.area_m2() < other.area_m2());
+    let gives_m = if are_neighbours && !goes_under { GOING_UNDER_END_M } else { 0.0 };
+    let is_over = are_neighbours && goes_under;
+    let board = (other.name.as_str(), shortened(&other.corners(at_rad), gives_m, 0.0));
+    let boards = std::iter::once(board).chain(other.tuck_corners(at_rad));
+    boards.map(|(name, corners)| Beside { name, corners, gives_way, is_over }).collect()
 }
 
 fn has_extent(flap: &Flap) -> bool {
     flap.standing != super::flap::Standing::Absent && flap.length_m() > 0.0
 }
 
-/// A quadrilateral with each corner moved in by so much along both of its edges.
-fn shrunk(corners: &[Vec3; 4], by_m: f64) -> [Vec3; 4] {
+/// A board, hinge edge first, with its corners moved in by so much along hinge and free edge, and along the edges between.
+fn shortened(corners: &[Vec3; 4], ends_m: f64, edges_m: f64) -> [Vec3; 4] {
     std::array::from_fn(|k| {
-        let toward = |other: &Vec3| {
-            let edge = other - corners[k];
-            edge * (by_m / edge.norm().max(2.0 * by_m))
+        let toward = |other: usize, by_m: f64| {
+            let edge = corners[other % 4] - corners[k];
+            edge * (by_m / edge.norm().max(2.0 * by_m).max(f64::MIN_POSITIVE))
         };
-        corners[k] + toward(&corners[(k + 1) % 4]) + toward(&corners[(k + 3) % 4])
+        // Hinge and free edge go from an even corner to the next.
+        let (along, across) = if k % 2 == 0 { (k + 1, k + 3) } else { (k + 3, k + 1) };
+        corners[k] + toward(along, ends_m) + toward(across, edges_m)
     })
 }
 
@@ -102,8 +129,8 @@ pub fn overlap_closed(a: &Flap, b: &Flap) -> bool {
 pub fn propped_rad(flap: &Flap, below: &Flap, below_rad: f64, over_m: f64) -> f64 {
     let gives_m = if are_opposite(flap, below) { 0.0 } else { GIVING_END_M };
     let (frame, closed) = (below.frame(below_rad), flap.frame(0.0));
-    let corners =
-        shrunk(&below.corners(below_rad), gives_m).map(|corner| closed.coordinates(&(corner + frame.outward * over_m)));
+    let corners = shortened(&below.corners(below_rad), gives_m, gives_m)
+        .map(|corner| closed.coordinates(&(corner + frame.outward * over_m)));
     corners.iter().map(|corner| corner.z.atan2(corner.y.max(1e-6))).fold(0.0, f64::max)
 }
 
@@ -255,5 +282,19 @@ mod tests {
                 _ => assert!(!jams, "{neighbour_rad}"),
             });
         assert_eq!(counted.len(), 3);
+    }
+
+    #[test]
+    fn ends_give_way_to_a_neighbour_that_stands() {
+        let (settings, upright) = (PlanningSettings::default(), std::f64::consts::FRAC_PI_2);
+        let meets = |wider_m: f64, neighbour_rad: f64| {
+            met(&carton(-wider_m, [0.2; 4]), &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings).is_some()
+        };
+        // Flaps that reach over the rim's corners, by less and by more than ends give way; a neighbour over the opening.
+        let asked = [(0.004, upright, false), (0.009, 1.67, false), (0.014, upright, true), (0.004, 0.7, true)];
+        let counted = asked.map(|(wider_m, neighbour_rad, expected)| {
+            assert_eq!(meets(wider_m, neighbour_rad), expected, "{wider_m} {neighbour_rad}");
+        });
+        assert_eq!(counted.len(), 4);
     }
 }

@@ -11,7 +11,7 @@ use super::layers::Layers;
 use super::line::Lines;
 use super::orientations::blend;
 use super::posture::nearest;
-use super::reason::{Obstacle, Status, Tally, WhyNot};
+use super::reason::{Obstacle, Status, Tally, WhyNot, CAUGHT};
 use super::searches::Search;
 use super::settings::PlanningSettings;
 use super::touch::Finger;
@@ -92,6 +92,7 @@ impl<G: Guard> Pusher<'_, G> {
             reason: "no search was allowed".into(),
             by_flaps: false,
             at_start: false,
+            at_rad: None,
             moves_box: false,
             searched: true,
         }))
@@ -198,7 +199,10 @@ impl<G: Guard> Pusher<'_, G> {
         };
         let by_flaps = tally.any(|obstacle| obstacle.is_flap_beside(self.contacts.flap));
         let moves_box = tally.any(|obstacle| *obstacle == Obstacle::Moves);
-        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, at_start, moves_box, searched: true }
+        // Where the arm is caught, ends of other pushes lie no more open, and to find that out takes long.
+        let is_caught = tally.any(|obstacle| *obstacle == CAUGHT);
+        let at_rad = (!at_start && !is_caught).then_some(angle_rad);
+        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, at_start, at_rad, moves_box, searched: true }
     }
 }
 

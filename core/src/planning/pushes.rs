@@ -32,7 +32,8 @@ impl<G: Guard> Closer<'_, G> {
         let strain = self.load.worst_strain(self.problem, flap);
         if strain <= self.settings.fork.least_strain {
             let pushed = self.careful_push(flap, moment, hold_rad);
-            return pushed.or_else(|why| self.fork_and_push(flap, moment, hold_rad, why));
+            let pushed = pushed.or_else(|why| self.fork_and_push(flap, moment, hold_rad, why));
+            return pushed.or_else(|why| self.in_two_pushes(flap, moment, hold_rad, why));
         }
         // A box that a push nearly moves is moved by many: rather by a couple.
         match self.fork_and_push(flap, moment, hold_rad, WhyNot::moving()) {
@@ -44,14 +45,27 @@ impl<G: Guard> Closer<'_, G> {
     /// A push with a reserve to what moves the box.
     fn careful_push(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Tried {
         let most_strain = self.settings.most_strain;
+        let pushed = |to_rad: f64| self.pusher(flap, moment, to_rad, most_strain).plan();
         let short_rad = self.settings.short_on_others_rad;
-        match self.pusher(flap, moment, hold_rad, most_strain).plan() {
+        match pushed(hold_rad) {
             // Arms that cannot follow the flap beyond closed may still lay it down.
             Err(why) if hold_rad < 0.0 && !why.at_start => {
-                self.pusher(flap, moment, short_rad, most_strain).plan().map_err(|_| why)
+                pushed(short_rad).or_else(|_| self.laid_short(flap, &why, &pushed)).map_err(|_| why)
             }
+            Err(why) => self.laid_short(flap, &why, &pushed).map_err(|_| why),
             tried => tried,
         }
+    }
+
+    /// Of a push that ends just before closed (no room over flaps that lie there): let go where the crease still lets it rest closed.
+    fn laid_short(&self, flap: usize, why: &WhyNot, pushed: &impl Fn(f64) -> Tried) -> Tried {
+        let settings = self.settings;
+        let lay_rad = self.load.folds[flap].held_rad(settings.closed_rad - settings.rest_aim_rad);
+        let ends_late = why.at_rad.is_some_and(|at_rad| at_rad <= lay_rad + settings.layer_rad);
+        if !ends_late || lay_rad < settings.least_lay_rad {
+            return Err(why.clone());
+        }
+        pushed(lay_rad)
     }
 
     /// Turned in stages until a push can go on: where a push from the start moves the box, or has no room.

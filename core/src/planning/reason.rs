@@ -27,6 +27,9 @@ pub enum Obstacle {
     NoWay { to: &'static str },
 }
 
+/// The arm finds no way on from where it has let go of a flap.
+pub const CAUGHT: Obstacle = Obstacle::NoWay { to: "back from it" };
+
 /// How the names of flaps and of their tucks begin.
 const FLAP_NAMES: [&str; 2] = ["flap_", "tuck_"];
 
@@ -118,6 +121,8 @@ pub struct WhyNot {
     pub by_flaps: bool,
     /// Whether the arm cannot even begin.
     pub at_start: bool,
+    /// Where a push that begins ends on its way, rad.
+    pub at_rad: Option<f64>,
     /// Whether pushes were left out that would have moved the box.
     pub moves_box: bool,
     /// Whether the arm's ways were searched for, which takes time.
@@ -128,13 +133,29 @@ impl WhyNot {
     /// No push of one finger leaves the box where it is.
     pub fn moving() -> Self {
         let reason = format!("where it stands: {}", Obstacle::Moves);
-        Self { status: Status::Blocked, reason, by_flaps: false, at_start: true, moves_box: true, searched: true }
+        Self {
+            status: Status::Blocked,
+            reason,
+            by_flaps: false,
+            at_start: true,
+            at_rad: None,
+            moves_box: true,
+            searched: true,
+        }
     }
 
     /// Boards are in the way, whatever the arm does.
     pub fn by_boards(obstacle: &Obstacle) -> Self {
         let reason = obstacle.to_string();
-        Self { status: Status::Blocked, reason, by_flaps: true, at_start: false, moves_box: false, searched: false }
+        Self {
+            status: Status::Blocked,
+            reason,
+            by_flaps: true,
+            at_start: false,
+            at_rad: None,
+            moves_box: false,
+            searched: false,
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use super::guard::{Guard, Moment};
 use super::layers::{Found, Layers};
 use super::line::Lines;
 use super::push::{PushMotion, Pusher};
-use super::reason::{Obstacle, Tally, WhyNot};
+use super::reason::{Tally, WhyNot, CAUGHT};
 use super::settings::PlanningSettings;
 use super::transit::Transit;
 use crate::arm::{Arm, JointPositions};
@@ -104,7 +104,7 @@ impl<G: Guard> Search<'_, '_, G> {
         }
         self.caught.set(self.caught.get() + caught.len());
         if !caught.is_empty() {
-            tally.add(Obstacle::NoWay { to: "back from it" });
+            tally.add(CAUGHT);
         }
         // Too few tries prove nothing; but an arm that is caught after a push pushes no other.
         if let Some((motion, _)) = caught.into_iter().find(|(_, goes)| *goes) {

@@ -24,6 +24,8 @@ pub struct PlanningSettings {
     pub short_on_rims_rad: f64,
     /// The same where flaps across from one another overlap: boards lie on boards, and the upper one's edge is near the lower's hinge.
     pub short_on_stacks_rad: f64,
+    /// What cannot be pushed so far is let go where it still comes to rest closed, if that is as far from closed as this.
+    pub least_lay_rad: f64,
     /// A flap that others prop up higher than this is left open.
     pub most_propped_rad: f64,
     /// Boards that come nearer to a flap than this on their way down are taken to stop it.
@@ -200,6 +202,7 @@ impl Default for PlanningSettings {
             short_on_others_rad: 0.3f64.to_radians(),
             short_on_rims_rad: 0.5f64.to_radians(),
             short_on_stacks_rad: 2.5f64.to_radians(),
+            least_lay_rad: 2f64.to_radians(),
             most_propped_rad: 20f64.to_radians(),
             rim_gap_m: 0.0003,
             assumed: Assumed::default(),

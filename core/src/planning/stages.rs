@@ -3,7 +3,9 @@
 use super::closing::Closer;
 use super::fork::Fork;
 use super::guard::{Guard, Moment};
+use super::known::Tried;
 use super::push::{PushMotion, Pusher};
+use super::reason::WhyNot;
 use super::settings::PlanningSettings;
 
 /// A motion, and where the flap rests after it, rad.
@@ -14,6 +16,29 @@ impl<G: Guard> Closer<'_, G> {
     /// alone is looked for: it may be easier once they have moved.
     pub fn turned_down(&self, flap: usize, moment: &Moment, by_flaps: bool) -> Option<Vec<Stage>> {
         self.in_stages(flap, moment, if by_flaps { 1 } else { self.settings.fork.most_stages })
+    }
+
+    /// A push as far as the way from the start leads, and another, from elsewhere, from where the flap springs back to.
+    ///
+    /// # Errors
+    /// The reason why one push alone does not do.
+    pub fn in_two_pushes(&self, flap: usize, moment: &Moment, hold_rad: f64, why: WhyNot) -> Tried {
+        let settings = self.settings;
+        let Some(stuck_rad) = why.at_rad.filter(|_| settings.fork.most_stages > 1) else { return Err(why) };
+        let start_rad = moment.angles_rad[flap];
+        let ends = (0..).map(|part| stuck_rad + settings.layer_rad + f64::from(part) * settings.fork.least_part_rad);
+        let ends = ends.take_while(|&to_rad| to_rad <= start_rad - settings.fork.least_part_rad / 2.0);
+        let bears = |to_rad: &f64| self.load.strain_at(self.problem, flap, *to_rad) <= settings.most_strain;
+        for to_rad in ends.filter(bears) {
+            let Some((motion, rest_rad)) = self.pushed_to(flap, moment, to_rad) else { continue };
+            let turned = moment.left(flap, rest_rad);
+            // It does not come to rest exactly there: a finger that comes along the board would catch on it.
+            let lifted = PlanningSettings { slide_off_m: 0.0, ..self.settings_of(flap).clone() };
+            let pusher = self.pusher(flap, &turned, hold_rad, settings.most_strain);
+            let home = Pusher { settings: &lifted, ..pusher }.plan();
+            return home.map(|push| PushMotion { first: vec![motion], ..push }).map_err(|_| why);
+        }
+        Err(why)
     }
 
     fn in_stages(&self, flap: usize, moment: &Moment, most: usize) -> Option<Vec<Stage>> {

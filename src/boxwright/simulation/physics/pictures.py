@@ -18,6 +18,7 @@ from PIL import Image, ImageDraw
 from boxwright.simulation.physics.boards import BoardBox
 from boxwright.simulation.physics.run import Run
 
+Array = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
 
 TILE_PX = (400, 300)
@@ -28,6 +29,10 @@ ELEVATION_DEG = -28.0
 CAPTION_PX = 5
 CAPTION_HEIGHT_PX = 20
 SAMPLES = 2
+EDGE_SHARE = 0.08
+"""Of a picture's half height and width that stays free at its edges; the caption is there."""
+FRAMED_STILLS = 24
+"""Stills that the camera is put up for."""
 
 
 class Painter:
@@ -47,6 +52,33 @@ class Painter:
         self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = False
         self._scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = False
         self._camera = _camera(run.box)
+        self._frame(run.film.positions)
+
+    def _frame(self, stills: Sequence[Array]) -> None:
+        """Puts the camera, as it looks, at the height and distance from which all that moves is seen in every still."""
+        azimuth_rad, elevation_rad = np.radians([self._camera.azimuth, self._camera.elevation])
+        level = np.array([np.cos(azimuth_rad), np.sin(azimuth_rad), 0.0])
+        forward = np.cos(elevation_rad) * level + np.array([0.0, 0.0, np.sin(elevation_rad)])
+        right = np.array([level[1], -level[0], 0.0])
+        seen = self._extents(stills)
+        self._camera.lookat[:] = (seen.min(axis=0) + seen.max(axis=0)) / 2.0
+        at = (seen - self._camera.lookat) @ np.column_stack([right, np.cross(right, forward), forward])
+        slope = np.tan(np.radians(self._model.vis.global_.fovy) / 2.0) * (1.0 - EDGE_SHARE)
+        width, height = self._size_px
+        slopes = slope * np.array([width / height, 1.0])
+        self._camera.distance = float((np.abs(at[:, :2]) / slopes - at[:, 2:]).max())
+
+    def _extents(self, stills: Sequence[Array]) -> Array:
+        """(N, 3): low and high corners of the balls around all geoms of what moves, in some of the stills."""
+        model, data = self._model, self._data
+        moves = (model.body_weldid[model.geom_bodyid] != 0) & (model.geom_rbound > 0.0)
+        radii_m = model.geom_rbound[moves, None]
+        found = []
+        for positions in stills[:: max(1, len(stills) // FRAMED_STILLS)]:
+            data.qpos[:] = positions
+            mujoco.mj_kinematics(model, data)
+            found += [data.geom_xpos[moves] - radii_m, data.geom_xpos[moves] + radii_m]
+        return np.concatenate(found)
 
     def __enter__(self) -> Painter:
         return self
@@ -55,7 +87,7 @@ class Painter:
         self._drawer.free()
         self._context.free()
 
-    def draw(self, positions: NDArray[np.float64]) -> Pixels:
+    def draw(self, positions: Array) -> Pixels:
         """(height, width, 3) at these joint positions (nq,)."""
         width, height = self._size_px
         self._data.qpos[:] = positions
@@ -119,11 +151,9 @@ def _moments(run: Run) -> list[int]:
 
 
 def _camera(box: BoardBox) -> mujoco.MjvCamera:
-    """Looks at a point between robot and box, across the line between them."""
+    """Looks across the line between robot and box; from where, the painter finds."""
     camera = mujoco.MjvCamera()
     centre = np.concatenate([board.corners for board in box.boards]).mean(axis=0)
-    camera.lookat[:] = [0.6 * centre[0], 0.6 * centre[1], centre[2] + 0.15]
-    camera.distance = 0.9 + 0.8 * float(np.linalg.norm(centre[:2]))
     camera.azimuth = float(np.degrees(np.arctan2(centre[1], centre[0]))) + 115.0
     camera.elevation = ELEVATION_DEG
     return camera

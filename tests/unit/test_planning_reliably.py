@@ -1,0 +1,74 @@
+"""Flaps that other flaps, their own ends or the way to them kept open: what closes them now, in physics."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from closing.measure import told
+from closing.problems import draw_problem
+
+from boxwright.planning import plan_closing
+from boxwright.simulation.physics import simulate
+from boxwright.types import Plan
+from support.dense_check import Clearances
+from support.repository import PACKAGE
+
+ROBOT = "viper_s850"
+ROBOT_FILE = PACKAGE / "robots" / "data" / f"{ROBOT}.toml"
+CLEARANCE_M = 0.005
+ROUNDING_M = 1e-6
+OVER_THE_RIM = (1128, 45)
+"""A box out of square: flaps reach over the rim's corners, and pass their neighbours only where ends give way."""
+OVER_OTHERS = (1129, 9, "flap_3")
+"""A lid that comes to lie on flaps so short that fingers on it, closed, would be too near to them."""
+IN_TWO = (2011, 31, "flap_1")
+"""A flap that no push from the start closes."""
+
+PUSHED_HOME = {"least_lay_rad": 9.0}
+AT_ONE_GO = {"fork": {"most_stages": 1}}
+
+
+def _plan(seed: int, number: int, crease: str, settings: dict[str, Any] | None = None) -> Plan:
+    return plan_closing(
+        draw_problem(number, seed).model, ROBOT, np.eye(4), settings={**told(crease), **(settings or {})}
+    )
+
+
+def _all_held(seed: int, number: int, crease: str, plan: Plan) -> bool:
+    run = simulate(plan, draw_problem(number, seed).model, crease=crease).simulation
+    return run.failure is None and not run.unwanted and all(run.flaps[name].held for name in plan.order)
+
+
+def _keeps_clear(seed: int, number: int, plan: Plan) -> bool:
+    """Every millisecond, by another collision library."""
+    found = Clearances(draw_problem(number, seed).model, ROBOT_FILE).of_plan(plan)
+    return all(least_m >= (0.0 if what == "finger" else CLEARANCE_M) - ROUNDING_M for what, least_m in found)
+
+
+def test_flaps_that_reach_over_the_rim_pass_their_neighbours() -> None:
+    plan = _plan(*OVER_THE_RIM, "pre_broken")
+    assert len(plan.order) == 3
+    assert _all_held(*OVER_THE_RIM, "pre_broken", plan)
+
+
+def test_a_lid_over_short_flaps_is_let_go_where_it_comes_to_rest_closed() -> None:
+    seed, number, name = OVER_OTHERS
+    plan = _plan(seed, number, "pre_broken")
+    assert _plan(seed, number, "pre_broken", PUSHED_HOME).flaps[name].status == "blocked"
+    last = [segment for segment in plan.segments if segment.kind == "push" and segment.flap == name][-1]
+    assert last.hinge_angle_rad is not None
+    assert np.radians(2.0) < last.hinge_angle_rad[-1] < np.radians(12.0)
+    assert (plan.flaps[name].rest_rad or 0.0) < np.radians(12.5)
+    assert _keeps_clear(seed, number, plan)
+    assert _all_held(seed, number, "pre_broken", plan)
+
+
+def test_a_second_push_closes_what_the_first_leaves_half_way() -> None:
+    seed, number, name = IN_TWO
+    plan = _plan(seed, number, "pre_broken")
+    assert _plan(seed, number, "pre_broken", AT_ONE_GO).flaps[name].status == "blocked"
+    pushes = [segment for segment in plan.segments if segment.kind == "push" and segment.flap == name]
+    assert [segment.gripper_opening_m for segment in pushes] == [0.0, 0.0]
+    assert _keeps_clear(seed, number, plan)
+    assert _all_held(seed, number, "pre_broken", plan)
