@@ -7,26 +7,19 @@ import time
 from collections.abc import Sequence
 
 import numpy as np
+from benchmarks.closing.creases import told
 from benchmarks.closing.problems import Problem
 from benchmarks.closing.record import CREASES, FlapRecord, Limits, Record
 from benchmarks.closing.seen import Seen, close_seen
 
-from boxwright.planning import ask_bearable, ask_feasible, assumed, measured_box, plan_closing
-from boxwright.simulation.physics import crease_class, modelled_box, simulate
+from boxwright.planning import ask_bearable, ask_feasible, measured_box, plan_closing
+from boxwright.simulation.physics import modelled_box, simulate
 from boxwright.types import Simulation
 
 ROBOT = "viper_s850"
 REACHED_RAD = math.radians(2.0)
 """A servo brings a flap this near to 0 where the plan pushes it to 0 or beyond."""
 OPEN_RAD = math.radians(15.0)
-
-
-def told(crease: str) -> dict:
-    """What the planner is told of a class of creases: whoever closes boxes knows theirs."""
-    figures = crease_class(crease)
-    return assumed(
-        moment_n_m_per_m=figures.moment_n_m_per_m, board_m=figures.board_mm / 1000.0, return_rad=figures.return_rad
-    )
 
 
 def measure(problem: Problem, way: str, crease: str) -> Record:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from closing.measure import told
+from closing.creases import told
 from closing.problems import draw_problem
 
 from boxwright.planning import plan_closing

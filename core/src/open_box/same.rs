@@ -29,3 +29,64 @@ fn is_same_at(one: &FoundBox, other: &FoundBox, turn: usize) -> bool {
     };
     stands && is_as_large && (0..4).all(has_its_flap)
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, Isometry3, Translation3};
+
+    use super::super::labels::{Labels, Present};
+    use super::*;
+    use crate::fit::{FittedBody, Parameters, Solution};
+
+    /// A box of 0.4 x 0.3 x 0.2 m with a flap on side 1.
+    fn found(change: impl Fn(&mut FittedBody), flaps: [bool; 4]) -> FoundBox {
+        let mut numbers = Parameters::zeros();
+        let lengths = [(layout::LENGTH, 0.4), (layout::WIDTH, 0.3), (layout::HEIGHT, 0.2)];
+        lengths.iter().for_each(|&(place, length_m)| numbers[place] = length_m);
+        numbers[layout::flap(1) + layout::FLAP_LENGTH] = 0.15;
+        numbers[layout::flap(1) + layout::FLAP_ANGLE] = 2.0;
+        let mut body = FittedBody { input_from_object: Isometry3::identity(), numbers };
+        change(&mut body);
+        FoundBox {
+            solution: Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() },
+            present: Present { flaps, tucks: [false; 4] },
+            labels: Labels::default(),
+            evidence: Vec::new(),
+            score: 1.0,
+            probability: 1.0,
+            size: None,
+            rivals: 0,
+            of_fewer: None,
+            features: Vec::new(),
+            part_features: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn boxes_are_one_whichever_side_is_told_first_and_not_where_a_flap_differs() {
+        let flap = layout::flap(1);
+        let one = found(|_| (), [false, true, false, false]);
+        for turn in 0..4 {
+            let present = one.present.turned(turn);
+            let body = one.solution.body.turned(turn);
+            assert!(is_same(&one, &found(|other| *other = body.clone(), present.flaps)), "{turn}");
+        }
+        type Change = fn(&mut FittedBody);
+        let changes: [(Change, bool); 6] = [
+            (|body| body.numbers[layout::LENGTH] += 0.002, true),
+            (|body| body.numbers[layout::LENGTH] += 0.004, false),
+            (|body| body.numbers[layout::flap(1) + layout::FLAP_ANGLE] += 0.04, true),
+            (|body| body.numbers[layout::flap(1) + layout::FLAP_ANGLE] += 0.06, false),
+            (|body| body.numbers[layout::flap(1) + layout::FLAP_LENGTH] -= 0.01, false),
+            (|body| body.input_from_object.translation = Translation3::new(0.0, 0.0, 0.004), false),
+        ];
+        for (number, (change, expected)) in changes.into_iter().enumerate() {
+            assert_eq!(is_same(&one, &found(change, one.present.flaps)), expected, "{number}");
+        }
+        // What a flap that is not there is like says nothing.
+        let without = [false; 4];
+        let bent = |body: &mut FittedBody| body.numbers[flap + layout::FLAP_ANGLE] = 0.3;
+        assert!(is_same(&found(|_| (), without), &found(bent, without)));
+        assert!(!is_same(&one, &found(|_| (), without)));
+    }
+}
