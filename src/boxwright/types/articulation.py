@@ -75,10 +75,7 @@ class Part(msgspec.Struct, frozen=True, kw_only=True):
     corners: Corners | None
     points: int
     probability: float | None = None
-    """That its points are this panel's; None where the method has none, or no readings came into question.
-
-    Of a part of a whole box that was not observed it is that of the readings that came into question and were not told.
-    """
+    """That its points are this panel's; None where the method has none, or where it was not observed."""
     seen_from: Vector | None = None
     """Of a hidden part: unit vector from it towards the nearest place that would see it; None where none is known."""
 

@@ -4,10 +4,10 @@ use super::super::evidence::{Evidence, Sheet};
 use super::super::grow::FINE_M;
 use super::super::sight::Sight;
 use super::matching::Sighting;
+use super::places::SURE;
 use crate::fit::Role;
 
-/// A box is sure, and looked through by so many pixels, more than are met.
-const SURE: f64 = 0.6;
+/// A box is looked through by so many pixels, more than are met.
 const LEAST_THROUGH: f64 = 1500.0;
 
 /// A line of each frame, and box of another that is sure of it, where the frame sees through the box's walls more than it meets them.

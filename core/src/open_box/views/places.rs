@@ -9,7 +9,7 @@ use super::View;
 use crate::fit::FitSettings;
 
 /// A box tells of places where two views see it, and one is so sure of it.
-const SURE: f64 = 0.6;
+pub const SURE: f64 = 0.6;
 /// Rounds of places and readings.
 const ROUNDS: usize = 2;
 /// A place that is off by more standard deviations than this is told.
