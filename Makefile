@@ -121,18 +121,21 @@ weights-fitted:
 		--method exact -o $(WEIGHTS)/exact/tote.json
 	$(BIN)/boxwright synth $(SETS)/judge --count 360 --seed 503
 	$(BIN)/boxwright synth $(SETS)/judge_none --count 160 --seed 504 --category none
-	$(BIN)/boxwright synth $(SETS)/judge_2 --count 360 --seed 505
+	$(BIN)/boxwright synth $(SETS)/judge_2 --count 180 --seed 505
 	$(BIN)/boxwright synth $(SETS)/judge_none_2 --count 107 --seed 506 --category none
-	$(BIN)/boxwright synth $(SETS)/judge_3 --count 360 --seed 507
-	$(BIN)/boxwright synth $(SETS)/judge_none_3 --count 200 --seed 508 --category none
-	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none $(SETS)/judge_2 $(SETS)/judge_none_2 $(SETS)/judge_3 $(SETS)/judge_none_3 \
+	$(BIN)/boxwright synth $(SETS)/upright --count 120 --seed 509 --category upright
+	$(BIN)/boxwright synth $(SETS)/part_shut --count 120 --seed 510 --category part_shut
+	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none $(SETS)/judge_2 $(SETS)/judge_none_2 $(SETS)/upright $(SETS)/part_shut \
 		--method fitted -o $(WEIGHTS)/fitted/judgement.json
 	$(BIN)/python -m benchmarks.kinds $(SETS)/judge $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 	$(BIN)/python -m benchmarks.coverage $(SETS)/judge --scales
 
-evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, and 200 and 60 without an open box)
-	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 7001
-	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 7002 --category none
+evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, 60 upright, 60 half shut, and 200 and 60 without an open box)
+	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 8001
+	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 8002 --category none
+	$(BIN)/boxwright synth $(SETS)/boxes_upright --count 60 --seed 8003 --category upright --boxes 1
+	$(BIN)/boxwright synth $(SETS)/boxes_part_shut --count 60 --seed 8004 --category part_shut --boxes 1
+	for set in boxes_upright boxes_part_shut; do $(BIN)/boxwright evaluate $(SETS)/$$set -o out/$$set.json; done
 	for method in fitted exact paper; do \
 		$(BIN)/boxwright evaluate $(SETS)/boxes --method $$method -o out/boxes_$$method.json; \
 		$(BIN)/boxwright evaluate $(SETS)/no_boxes --method $$method -o out/no_boxes_$$method.json; \

@@ -1,4 +1,4 @@
-//! What an open box shows that a closed one does not: its inside, or a flap out of the plane of its side.
+//! What an open box shows that a closed one does not: its inside, that of its flaps too, or a flap out of the plane of its side.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -52,6 +52,14 @@ mod tests {
             features: vec![("looked_inside", amount(through))],
             part_features: Vec::new(),
         }
+    }
+
+    /// A side and its flap from behind: all else of the box is hidden.
+    #[test]
+    fn the_inside_of_an_upright_flap_tells_an_open_box() {
+        let mut one = found(FRAC_PI_2, 0, 0.0, 0.0);
+        one.evidence = vec![(Role::Flap(1), Evidence { met: 900.0, is_inner: true, ..Evidence::default() })];
+        assert!(!may_be_closed(&one));
     }
 
     #[test]

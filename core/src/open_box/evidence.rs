@@ -13,7 +13,7 @@ pub struct Evidence {
     pub hidden: f64,
     pub blank: f64,
     pub outside: f64,
-    /// Whether it is a side's inner face that the camera sees.
+    /// Whether it is a side's or a flap's inner face that the camera sees.
     pub is_inner: bool,
 }
 
@@ -148,8 +148,13 @@ impl<'a> Sheet<'a> {
 
     /// What the rays say of it.
     pub fn look(&self, sight: &Sight, model_m: f64) -> Evidence {
-        let mut out =
-            Evidence { is_inner: matches!(self.role, Role::Side(_)) && self.face > 0.0, ..Evidence::default() };
+        // A side leaves the rim downwards, a flap upwards: their inner faces look opposite ways.
+        let is_inner = match self.role {
+            Role::Side(_) => self.face > 0.0,
+            Role::Flap(_) => self.face < 0.0,
+            Role::Base | Role::Tuck(_) => false,
+        };
+        let mut out = Evidence { is_inner, ..Evidence::default() };
         let cell =
             self.width_m.max(0.0) * self.length_m.max(0.0) * (1.0 - 2.0 * END_SHARE).powi(2) / (ALONG * AWAY) as f64;
         let share = |i: usize, n: usize| END_SHARE + (1.0 - 2.0 * END_SHARE) * (i as f64 + 0.5) / n as f64;

@@ -6,7 +6,7 @@ use super::crease::with_creases;
 use super::evidence::{Evidence, Sheet};
 use super::features;
 use super::flap_scan::ScannedFlap;
-use super::grow::{competing, sound, weigh, FoundBox, COARSE_STRIDE, FINE_M};
+use super::grow::{competing, grow, sound, weigh, FoundBox, COARSE_STRIDE, FINE_M};
 use super::hanging::{
     scan_flaps, scan_flaps_into_box, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN,
 };
@@ -15,8 +15,11 @@ use super::label::label;
 use super::labels::{Labels, Present};
 use super::refit::refit;
 use super::sight::Sight;
+use super::slots::height_by_slots;
 use super::sure::drop_unsure;
-use crate::fit::{canonical_turn, share_of_score, with_known_size, FitSettings, KnownSize, NotFitted, Role, Solution};
+use crate::fit::{
+    canonical_turn, layout, share_of_score, with_known_size, FitSettings, KnownSize, NotFitted, Role, Solution,
+};
 
 /// What boxes are finished by.
 pub struct Finishing<'a> {
@@ -30,6 +33,9 @@ pub struct Finishing<'a> {
 /// A finished box is finished anew, from what it has come to, at most so often: what it now is shows flaps that it did not.
 const ROUNDS: usize = 2;
 
+/// A box with flaps that stand up holds at least this share of what it held as one of higher sides.
+const BELOW_SLOTS: f64 = 0.9;
+
 impl Finishing<'_> {
     /// The box that was chosen, or of those that could take its place the one that holds more once all are finished.
     ///
@@ -42,7 +48,26 @@ impl Finishing<'_> {
             Ok(best) if self.rank(&best) >= self.rank(&one) => Ok(best),
             _ => Ok(one),
         });
-        best.map(|best| self.while_better(best))
+        best.map(|best| self.below_slots(self.while_better(best)))
+    }
+
+    /// The box with sides that end where its corners open, and with the flaps that stand up on them; as it is where they do not, or
+    /// where much less would be held so.
+    fn below_slots(&self, found: FoundBox) -> FoundBox {
+        let body = &found.solution.body;
+        let Some(height_m) = height_by_slots(self.sight, body) else { return found };
+        let mut lower = body.clone();
+        lower.numbers[layout::HEIGHT] = height_m;
+        let flaps = scan_flaps(self.sight, &lower, FINE_M, FINE_SCAN);
+        if flaps.iter().all(Option::is_none) {
+            return found;
+        }
+        let grown = grow(self.sight, &lower, &flaps, self.settings);
+        let lower = grown.map(|grown| FoundBox { rivals: found.rivals, size: found.size.clone(), ..grown });
+        match lower.map(|lower| self.finish(lower)) {
+            Some(Ok(lower)) if self.rank(&lower) > BELOW_SLOTS * self.rank(&found) => self.while_better(lower),
+            _ => found,
+        }
     }
 
     fn while_better(&self, first: FoundBox) -> FoundBox {

@@ -37,6 +37,7 @@ mod shape;
 mod shell;
 mod shells;
 mod sight;
+mod slots;
 mod start;
 mod sure;
 mod surfaces;

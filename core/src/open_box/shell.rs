@@ -12,8 +12,9 @@ pub struct ShellLook {
     pub met: [[f64; 2]; 4],
     pub through: f64,
     pub hidden: f64,
-    /// Readings that close the opening.
+    /// Readings that close the opening, and those below it.
     pub lid: f64,
+    pub inside: f64,
 }
 
 /// Every so many pixels of a row, and rows, are asked.
@@ -23,10 +24,16 @@ const MODEL_M: f64 = 0.009;
 /// What lies this near to the rim's plane, and over the opening, closes it.
 const LID_M: f64 = 0.006;
 
+/// Flaps that are shut close a part of an opening: so much of it for each reading below.
+const INSIDE_TO_LID: f64 = 0.6;
+
 impl ShellLook {
     /// What speaks for the box. What hides it says little: of two boxes that are seen alike the smaller.
     pub fn score(&self) -> f64 {
-        self.met.iter().flatten().sum::<f64>() - 2.0 * self.through - self.lid - 0.05 * self.hidden
+        self.met.iter().flatten().sum::<f64>()
+            - 2.0 * self.through
+            - (self.lid - INSIDE_TO_LID * self.inside).max(0.0)
+            - 0.05 * self.hidden
     }
 }
 
@@ -92,6 +99,9 @@ impl Rays {
                 if face.is_inner && (eye[2] + ray[2] - slabs[2][1]).abs() < LID_M + self.tolerance[k] * ray[2].abs() {
                     looked.lid += pixels;
                     continue;
+                }
+                if face.is_inner && eye[2] + ray[2] < slabs[2][1] {
+                    looked.inside += pixels;
                 }
                 let reach = ray[face.axis].abs();
                 let off = (1.0 - at) * reach;

@@ -17,8 +17,8 @@ def synth(
     category: Annotated[
         list[str] | None,
         typer.Option(
-            help="small, medium, large, carton, cake, pizza (the default: these six in turn), tote (no flaps), or none "
-            "(no open box). Repeatable."
+            help="small, medium, large, carton, cake, pizza (the default: these six in turn), tote (no flaps), upright "
+            "(all flaps stand up), part_shut (some are shut), or none (no open box). Repeatable."
         ),
     ] = None,
     boxes: Annotated[

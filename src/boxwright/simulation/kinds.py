@@ -13,6 +13,7 @@ import msgspec
 import numpy as np
 
 from boxwright.simulation.boxes import Flap, OpenBox, Rgb, Tuck
+from boxwright.simulation.states import part_shut, set_up
 
 Rng = np.random.Generator
 Draw = Callable[[Rng, str, str], OpenBox]
@@ -240,7 +241,35 @@ KINDS: dict[str, dict[str, Draw]] = {
     "pizza": {"pizza": pizza, "wings": pizza_wings, "tuck": pizza_tuck, "plain_lid": plain_lid},
 }
 """Kinds by category and variant name."""
-FURTHER_KINDS: dict[str, dict[str, Draw]] = {"tote": {"bin": half_slotted, "lipped": lipped}}
+
+
+def upright(rng: Rng, category: str, variant: str) -> OpenBox:
+    """A box as it is set up: all flaps stand in their sides' planes."""
+    return _as(set_up(rng, _with_flaps(rng, ("small", "medium", "large", "carton"))), category, variant)
+
+
+def closing(rng: Rng, category: str, variant: str) -> OpenBox:
+    """A box on its way to being closed: some flaps shut."""
+    return _as(part_shut(rng, _with_flaps(rng, tuple(KINDS))), category, variant)
+
+
+def _with_flaps(rng: Rng, categories: tuple[str, ...]) -> OpenBox:
+    """A box of any of these categories that has a flap."""
+    while True:
+        box = draw_box(rng, categories[int(rng.integers(len(categories)))])
+        if any(box.flaps):
+            return box
+
+
+def _as(box: OpenBox, category: str, variant: str) -> OpenBox:
+    return msgspec.structs.replace(box, category=category, variant=variant)
+
+
+FURTHER_KINDS: dict[str, dict[str, Draw]] = {
+    "tote": {"bin": half_slotted, "lipped": lipped},
+    "upright": {"set_up": upright},
+    "part_shut": {"closing": closing},
+}
 """Drawn only where their category is named: the six above go round in sets whose frames stay what they were."""
 RARE = {"half_slotted": 0.4, "plain_lid": 0.5}
 """How often these are drawn, against 1 for the others."""
