@@ -36,9 +36,13 @@ Ratios = dict[tuple[str, str], list[float]]
 
 
 def ratios_of(entry: SetEntry) -> Ratios:
-    """Of one frame; boxes without a fitted body tell none."""
+    """Of one frame; boxes without a fitted body tell none, nor does a frame that is refused."""
     frame = read_entry(entry)
-    inferred = infer(read_cloud(entry.cloud_path), method="fitted")
+    try:
+        inferred = infer(read_cloud(entry.cloud_path), method="fitted")
+    except ValueError as error:
+        print(f"{entry.name} is left out: {error}", file=sys.stderr)
+        return {}
     objects = inferred.model.objects
     score = score_frame(objects, inferred.object_labels, inferred.part_labels, frame.truth, frame.labels)
     out: Ratios = defaultdict(list)

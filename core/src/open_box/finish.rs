@@ -63,7 +63,7 @@ impl Finishing<'_> {
             return found;
         }
         let grown = grow(self.sight, &lower, &flaps, self.settings);
-        let lower = grown.map(|grown| FoundBox { rivals: found.rivals, size: found.size.clone(), ..grown });
+        let lower = grown.map(|grown| FoundBox { rivals: found.rivals, size: found.size, ..grown });
         match lower.map(|lower| self.finish(lower)) {
             Some(Ok(lower)) if self.rank(&lower) > BELOW_SLOTS * self.rank(&found) => self.while_better(lower),
             _ => found,
