@@ -142,19 +142,22 @@ impl<'a> Sheet<'a> {
         met.map(|(point, normal)| sight.pixels(&point, &normal, cell)).sum()
     }
 
+    /// Whether it is a side's or a flap's inner face. A side leaves the rim downwards, a flap upwards: their inner faces look opposite ways.
+    pub fn is_inner(&self) -> bool {
+        match self.role {
+            Role::Side(_) => self.face > 0.0,
+            Role::Flap(_) => self.face < 0.0,
+            Role::Base | Role::Tuck(_) => false,
+        }
+    }
+
     pub fn width_m(&self) -> f64 {
         self.width_m
     }
 
     /// What the rays say of it.
     pub fn look(&self, sight: &Sight, model_m: f64) -> Evidence {
-        // A side leaves the rim downwards, a flap upwards: their inner faces look opposite ways.
-        let is_inner = match self.role {
-            Role::Side(_) => self.face > 0.0,
-            Role::Flap(_) => self.face < 0.0,
-            Role::Base | Role::Tuck(_) => false,
-        };
-        let mut out = Evidence { is_inner, ..Evidence::default() };
+        let mut out = Evidence { is_inner: self.is_inner(), ..Evidence::default() };
         let cell =
             self.width_m.max(0.0) * self.length_m.max(0.0) * (1.0 - 2.0 * END_SHARE).powi(2) / (ALONG * AWAY) as f64;
         let share = |i: usize, n: usize| END_SHARE + (1.0 - 2.0 * END_SHARE) * (i as f64 + 0.5) / n as f64;
@@ -172,5 +175,38 @@ impl<'a> Sheet<'a> {
             }
         }
         out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Isometry3;
+
+    use super::*;
+    use crate::fit::Parameters;
+
+    #[test]
+    fn inner_faces_of_sides_and_upright_flaps_are_those_seen_from_within() {
+        let mut numbers = Parameters::zeros();
+        let lengths = [(layout::LENGTH, 0.4), (layout::WIDTH, 0.3), (layout::HEIGHT, 0.2)];
+        lengths.iter().for_each(|&(place, length_m)| numbers[place] = length_m);
+        for k in 0..4 {
+            numbers[layout::flap(k) + layout::FLAP_LENGTH] = 0.1;
+            numbers[layout::flap(k) + layout::FLAP_ANGLE] = std::f64::consts::FRAC_PI_2;
+        }
+        let body = FittedBody { input_from_object: Isometry3::identity(), numbers };
+        let mut cases = 0;
+        for k in 0..4 {
+            let rim = Rim::new(&body, k);
+            for (inward, is_inner) in [(0.05, true), (0.6, true), (-0.05, false), (-0.6, false)] {
+                let eye = rim.place(0.1, inward, 0.5);
+                for role in [Role::Side(k), Role::Flap(k)] {
+                    assert_eq!(Sheet::new(&body, role, &eye).is_inner(), is_inner, "{role:?} {inward}");
+                    cases += 1;
+                }
+                assert!(!Sheet::new(&body, Role::Base, &eye).is_inner());
+            }
+        }
+        assert_eq!(cases, 32);
     }
 }

@@ -34,6 +34,29 @@ pub struct FoundBox {
 }
 
 impl FoundBox {
+    /// A fitted box that nobody has judged yet, without features.
+    pub fn unjudged(
+        solution: Solution,
+        present: Present,
+        labels: Labels,
+        evidence: Vec<(Role, Evidence)>,
+        score: f64,
+    ) -> Self {
+        Self {
+            solution,
+            present,
+            labels,
+            evidence,
+            score,
+            probability: 1.0,
+            size: None,
+            rivals: 0,
+            of_fewer: None,
+            features: Vec::new(),
+            part_features: Vec::new(),
+        }
+    }
+
     /// The probability that a part's readings are that part's; `None` of a part without readings.
     pub fn part_probability(&self, role: Role, judgement: &Judgement) -> Option<f64> {
         let features = self.part_features.iter().find(|(r, _)| *r == role).map(|(_, features)| features);
@@ -111,17 +134,5 @@ pub fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize)
     let look = |role: Role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M));
     let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(look).collect();
     let score = score(sight, &solution.body, &labels, &evidence);
-    FoundBox {
-        solution,
-        present,
-        labels,
-        evidence,
-        score,
-        probability: 1.0,
-        size: None,
-        rivals: 0,
-        of_fewer: None,
-        features: Vec::new(),
-        part_features: Vec::new(),
-    }
+    FoundBox::unjudged(solution, present, labels, evidence, score)
 }

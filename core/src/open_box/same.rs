@@ -47,19 +47,9 @@ mod tests {
         numbers[layout::flap(1) + layout::FLAP_ANGLE] = 2.0;
         let mut body = FittedBody { input_from_object: Isometry3::identity(), numbers };
         change(&mut body);
-        FoundBox {
-            solution: Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() },
-            present: Present { flaps, tucks: [false; 4] },
-            labels: Labels::default(),
-            evidence: Vec::new(),
-            score: 1.0,
-            probability: 1.0,
-            size: None,
-            rivals: 0,
-            of_fewer: None,
-            features: Vec::new(),
-            part_features: Vec::new(),
-        }
+        let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
+        let present = Present { flaps, tucks: [false; 4] };
+        FoundBox::unjudged(solution, present, Labels::default(), Vec::new(), 1.0)
     }
 
     #[test]
