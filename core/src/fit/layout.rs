@@ -11,7 +11,7 @@ pub const HEIGHT: usize = 8;
 /// By how much the base's corners are off square, rad: positive leans the width's direction towards +x.
 pub const RACK: usize = 9;
 pub const THICKNESS: usize = 10;
-const BULGE: usize = 11;
+pub const BULGE: usize = 11;
 const FLAP: usize = 15;
 const TUCK: usize = 39;
 pub const PARAMETER_COUNT: usize = 51;

@@ -2,6 +2,7 @@
 
 mod answer;
 mod body;
+mod factor;
 mod forward;
 mod known_size;
 pub(crate) mod layout;
@@ -42,7 +43,7 @@ pub(crate) use object::{canonical_turn, check};
 pub(crate) use other_view::{OtherView, PlaceSigma};
 pub(crate) use priors::{kept_length, priors, Prior};
 pub(crate) use problem::{Problem, Support};
-pub(crate) use readings::{PartEnds, PartReadings, PartSegment};
+pub(crate) use readings::{FaceReading, PartEnds, PartReadings, PartSegment};
 pub(crate) use sensor::Sensor;
 pub(crate) use solve::{solve, Solution};
 pub(crate) use start::start;

@@ -1,11 +1,13 @@
 use nalgebra::{DMatrix, Isometry3};
 
 use super::body::{FittedBody, Parameters};
-use super::layout::{place_of_slot, LENGTH, PARAMETER_COUNT, SHIFT, SLOT_COUNT, TURN, WIDTH};
+use super::layout::{place_of_slot, LENGTH, PARAMETER_COUNT, SHIFT, TURN, WIDTH};
+use super::layout::{SLOT_BULGE, SLOT_COUNT, SLOT_FLAP, SLOT_TUCK};
 use super::other_view::OtherView;
 use super::panel::Panel;
 use super::priors::Prior;
 use super::readings::PartReadings;
+use super::roles::Role;
 use super::row::Row;
 use super::settings::FitSettings;
 use crate::geometry::{Plane, Vec3};
@@ -97,14 +99,14 @@ impl Problem {
         let height_cut = |height: &Row| if height.value < 0.0 { FIRM * cut } else { cut };
         if support.is_level {
             let height = height_row(&support.plane, &normal, body, [0.0, 0.0]);
-            block.add(&height, settings.support_sigma_m, 1.0, height_cut(&height));
+            block.add::<SLOT_BULGE>(&height, settings.support_sigma_m, 1.0, height_cut(&height));
             for lean in lean_rows(&normal) {
-                block.add(&lean, settings.support_sigma_rad, 1.0, cut);
+                block.add::<SLOT_BULGE>(&lean, settings.support_sigma_rad, 1.0, cut);
             }
         } else {
             let corners = CORNERS.map(|corner| height_row(&support.plane, &normal, body, corner));
             for height in corners.iter().filter(|height| height.value < 0.0) {
-                block.add(height, settings.support_sigma_m, 1.0, height_cut(height));
+                block.add::<SLOT_BULGE>(height, settings.support_sigma_m, 1.0, height_cut(height));
             }
         }
         block.scatter(sums, 0);
@@ -142,7 +144,12 @@ pub fn add_part(
     cut: f64,
 ) {
     let mut block = Block::default();
-    rows_of(part, body, motion, |row, sigma, information| block.add(row, sigma, information, cut));
+    match part.role {
+        Role::Base => rows_of(part, body, motion, |row, sigma, n| block.add::<SLOT_BULGE>(row, sigma, n, cut)),
+        Role::Side(_) => rows_of(part, body, motion, |row, sigma, n| block.add::<SLOT_FLAP>(row, sigma, n, cut)),
+        Role::Flap(_) => rows_of(part, body, motion, |row, sigma, n| block.add::<SLOT_TUCK>(row, sigma, n, cut)),
+        Role::Tuck(_) => rows_of(part, body, motion, |row, sigma, n| block.add::<SLOT_COUNT>(row, sigma, n, cut)),
+    }
     block.scatter(sums, part.role.side());
 }
 
@@ -189,6 +196,7 @@ fn rows_of(
 struct Block {
     cost: f64,
     gradient: [f64; SLOT_COUNT],
+    /// Lower triangle.
     curvature: [[f64; SLOT_COUNT]; SLOT_COUNT],
 }
 
@@ -199,18 +207,16 @@ impl Default for Block {
 }
 
 impl Block {
-    fn add(&mut self, row: &Row, sigma: f64, information: f64, cut: f64) {
+    /// A row that depends on the first `COUNT` slots alone.
+    fn add<const COUNT: usize>(&mut self, row: &Row, sigma: f64, information: f64, cut: f64) {
         let (cost, left) = cauchy(row.value / sigma, cut);
         self.cost += information * cost;
         let weight = information * left / (sigma * sigma);
-        for (i, by) in row.slots.iter().enumerate() {
-            if *by == 0.0 {
-                continue;
-            }
-            let weighted = weight * by;
+        for i in 0..COUNT {
+            let weighted = weight * row.slots[i];
             self.gradient[i] += weighted * row.value;
-            for (sum, other) in self.curvature[i].iter_mut().zip(&row.slots) {
-                *sum += weighted * other;
+            for j in 0..=i {
+                self.curvature[i][j] += weighted * row.slots[j];
             }
         }
     }
@@ -220,11 +226,9 @@ impl Block {
         for i in 0..SLOT_COUNT {
             let place = place_of_slot(i, k);
             sums.gradient[place] += self.gradient[i];
-            for j in 0..SLOT_COUNT {
-                let other = place_of_slot(j, k);
-                if other <= place {
-                    sums.curvature[(place, other)] += self.curvature[i][j];
-                }
+            // Places ascend with their slots.
+            for j in 0..=i {
+                sums.curvature[(place, place_of_slot(j, k))] += self.curvature[i][j];
             }
         }
     }

@@ -1,8 +1,7 @@
-use nalgebra::DMatrix;
-use nalgebra::{Cholesky, Dyn, Isometry3};
+use nalgebra::{DMatrix, Isometry3};
 
 use super::body::{FittedBody, Parameters};
-use super::layout::PARAMETER_COUNT;
+use super::factor::Factor;
 use super::problem::{Linearized, Problem};
 use super::refusal::NotFitted;
 
@@ -39,7 +38,7 @@ pub fn solve(problem: &Problem, start: &FittedBody) -> Result<Solution, NotFitte
     }
     let mut descent = Descent::new(problem, body, last);
     descent.run(problem.settings.max_steps)?;
-    let covariance = factor(&descent.at.curvature, 0.0).ok_or(NotFitted::Singular)?.inverse();
+    let covariance = Factor::new(&descent.at.curvature, 0.0).ok_or(NotFitted::Singular)?.inverse();
     Ok(Solution { body: descent.body, covariance, motions: descent.at.motions })
 }
 
@@ -72,7 +71,7 @@ impl<'a> Descent<'a> {
     /// One step downhill, damped until it is one; whether none was worth it.
     fn step(&mut self) -> Result<bool, NotFitted> {
         while self.damping < MOST_DAMPING {
-            let damped = factor(&self.at.curvature, self.damping).ok_or(NotFitted::Singular)?;
+            let damped = Factor::new(&self.at.curvature, self.damping).ok_or(NotFitted::Singular)?;
             let step: Parameters = -damped.solve(&self.at.gradient);
             // As good as undamped, a step tells what is left to gain.
             let is_free = self.damping <= FIRST_DAMPING;
@@ -90,11 +89,4 @@ impl<'a> Descent<'a> {
         }
         Err(NotFitted::NoStepBetters)
     }
-}
-
-/// Of the curvature with its diagonal raised by that share.
-fn factor(curvature: &DMatrix<f64>, damping: f64) -> Option<Cholesky<f64, Dyn>> {
-    let mut matrix = curvature.clone();
-    (0..PARAMETER_COUNT).for_each(|i| matrix[(i, i)] *= 1.0 + damping);
-    Cholesky::new(matrix)
 }

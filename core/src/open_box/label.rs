@@ -1,7 +1,7 @@
 //! Which panel of a body each reading lies on.
 
 use super::labels::{roles, Labels, Present};
-use super::sight::Sight;
+use super::sight::{Sight, Turn};
 use super::surfaces::Surface;
 use crate::fit::{layout, FittedBody, Rim, Role};
 use crate::geometry::Vec3;
@@ -17,13 +17,13 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, 
     let planes = Planes::of(&panels);
     let (low, high) = object_bounds(body, present);
     let inverse = body.input_from_object.inverse();
-    let (turn, shift) = (inverse.rotation.to_rotation_matrix(), inverse.translation.vector);
+    let (turn, shift) = (Turn::of(inverse.rotation.to_rotation_matrix().matrix()), inverse.translation.vector);
     for row in (top..=bottom).step_by(stride) {
         for column in (left..=right).step_by(stride) {
             let index = row * sight.width + column;
             let Some(look) = sight.look(index) else { continue };
             let point = look.at();
-            let q = turn * point + shift;
+            let q = turn.times(&point) + shift;
             if (0..3).any(|a| q[a] < low[a] || q[a] > high[a]) {
                 continue;
             }

@@ -51,7 +51,7 @@ pub struct Sight<'a> {
     pub height: usize,
     /// Angle between neighbouring pixels, rad.
     pub pixel_rad: f64,
-    place_from_level: Matrix3<f64>,
+    place_from_level: Turn,
     looks: Vec<Reading>,
     readings: &'a Readings<'a>,
 }
@@ -107,7 +107,9 @@ impl<'a> Sight<'a> {
             width: cloud.width,
             height: cloud.height,
             pixel_rad: step,
-            place_from_level: projection.pixel_from_ray() * input_from_level.rotation.to_rotation_matrix().matrix(),
+            place_from_level: Turn::of(
+                &(projection.pixel_from_ray() * input_from_level.rotation.to_rotation_matrix().matrix()),
+            ),
             readings,
         })
     }
@@ -119,7 +121,7 @@ impl<'a> Sight<'a> {
     /// Column and row that see a point; `None` behind the camera.
     #[inline]
     pub fn pixel(&self, point: &Vec3) -> Option<[f64; 2]> {
-        let place = self.place_from_level * (point - self.eye);
+        let place = self.place_from_level.times(&(point - self.eye));
         (place.z > 1e-3).then(|| [place.x / place.z, place.y / place.z])
     }
 
@@ -171,6 +173,26 @@ impl<'a> Sight<'a> {
         let ray = point - self.eye;
         let range = ray.norm();
         area_m2 * (normal.dot(&ray) / range).abs() / (range * self.pixel_rad).powi(2)
+    }
+}
+
+/// A matrix whose product with a vector the compiler lays out where it stands: nalgebra's calls two functions.
+#[derive(Debug, Clone, Copy)]
+pub struct Turn([[f64; 3]; 3]);
+
+impl Turn {
+    pub fn of(matrix: &Matrix3<f64>) -> Self {
+        Self([0, 1, 2].map(|i| [0, 1, 2].map(|j| matrix[(i, j)])))
+    }
+
+    #[inline]
+    pub fn times(&self, v: &Vec3) -> Vec3 {
+        let [a, b, c] = &self.0;
+        Vec3::new(
+            a[0] * v.x + a[1] * v.y + a[2] * v.z,
+            b[0] * v.x + b[1] * v.y + b[2] * v.z,
+            c[0] * v.x + c[1] * v.y + c[2] * v.z,
+        )
     }
 }
 
