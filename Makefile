@@ -125,8 +125,9 @@ weights-fitted:
 	$(BIN)/boxwright synth $(SETS)/judge_none_2 --count 107 --seed 506 --category none
 	$(BIN)/boxwright synth $(SETS)/upright --count 120 --seed 509 --category upright
 	$(BIN)/boxwright synth $(SETS)/part_shut --count 120 --seed 510 --category part_shut
+	$(BIN)/boxwright synth $(SETS)/lying --count 120 --seed 511 --category lying
 	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none $(SETS)/judge_2 $(SETS)/judge_none_2 $(SETS)/upright $(SETS)/part_shut \
-		--method fitted -o $(WEIGHTS)/fitted/judgement.json
+		--lying $(SETS)/lying --method fitted -o $(WEIGHTS)/fitted/judgement.json
 	$(BIN)/python -m benchmarks.kinds $(SETS)/judge $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 	$(BIN)/python -m benchmarks.coverage $(SETS)/judge --scales
 

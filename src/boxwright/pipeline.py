@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from boxwright import _core
 from boxwright.models import (
+    CLOSED,
+    FITTED,
     FITTED_TEMPLATES,
     TEMPLATE_NAMES,
     load_judgement,
@@ -71,6 +73,8 @@ def load_models(
     if method not in METHODS:
         raise ValueError(f"method {method!r} is not known; known are {', '.join(METHODS)}")
     templates = TEMPLATES_OF_METHOD[method] if templates is None else templates
+    if method != FITTED and CLOSED in map(str, templates):
+        raise ValueError(f"{CLOSED}: closed boxes are told by their rays: name it with the method {FITTED!r}")
     if weights is not None and len(templates) != 1:
         raise ValueError("weights fit one template; name that one alone")
     require_planes(planes)

@@ -155,3 +155,21 @@ def test_sides_end_where_slots_between_upright_flaps_begin(index: int) -> None:
     assert len(angles_deg) >= 3
     assert len(angles_deg) >= len(in_cloud)
     assert np.abs(np.array(angles_deg) - 90.0).max() < 6.0
+
+
+@pytest.mark.parametrize("index", [0, 6, 9])
+def test_boxes_on_their_side_are_found_and_measured(index: int) -> None:
+    """The side above and what is seen through the opening propose them; the side below follows from the support."""
+    frame = make_frame("lying", 9003, index, boxes=1)
+    inferred = boxwright.infer(cloud_of(frame))
+    (found,) = inferred.model.objects
+    true = frame.truth.boxes[0].dims
+    assert true is not None
+    assert found.dimensions is not None
+    sizes = [np.sort(lengths[:2]) for lengths in (true, found.dimensions)]
+    assert np.abs(sizes[0] - sizes[1]).max() < 0.012
+    assert abs(true[2] - found.dimensions[2]) < 0.012
+    score = score_frame(inferred.model.objects, inferred.object_labels, inferred.part_labels, frame.truth, frame.labels)
+    (box,) = score.boxes
+    assert box.flaps_right == box.flaps_in_cloud
+    assert box.flaps_wrong == 0

@@ -51,6 +51,7 @@ def test_a_judgement_that_does_not_fit_is_named() -> None:
     unknown_leaf = ["no_such_feature", 0.5, 0.0, 1.0]
     changes = {
         "on_walls": lambda judgement: judgement["box"]["weights"].pop("on_walls"),
+        "looked_inside": lambda judgement: judgement["lying"]["weights"].pop("looked_inside"),
         "lean": lambda judgement: judgement["part"]["weights"].pop("lean"),
         "no_such_weight": lambda judgement: judgement["box"]["weights"].update(no_such_weight=1.0),
         "no_such_feature": lambda judgement: judgement["part"]["trees"].append(["lean", 0.1, 0.0, unknown_leaf]),

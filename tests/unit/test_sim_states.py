@@ -1,10 +1,13 @@
-"""Boxes that are set up, and boxes on their way to being closed."""
+"""Boxes that are set up, boxes on their way to being closed, and boxes on their side."""
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
-from boxwright.simulation.frames import make_frame
+from boxwright.simulation.drawing import draw_scene
+from boxwright.simulation.frames import kinect_camera, make_frame
+from boxwright.simulation.poses import apply, inverse
 
 FRAMES = 12
 
@@ -28,3 +31,40 @@ def test_flaps_are_where_a_packer_leaves_them(category: str) -> None:
         shut += sum(angle < 10.0 for angle in of_box)
     assert flaps > 2 * FRAMES
     assert shut == 0 if category == "upright" else shut > FRAMES // 2
+
+
+def test_boxes_on_their_side_lie_on_it_and_open_towards_the_camera() -> None:
+    sides = set()
+    for index in range(FRAMES):
+        scene = draw_scene(np.random.default_rng((11, index)), "lying", kinect_camera(), 1, clutter=True)
+        (placed,) = scene.boxes
+        up = placed.world_from_box[:3, 2]
+        assert abs(up[2]) < 1e-9
+        camera = inverse(scene.camera_from_world)[:3, 3] - placed.world_from_box[:3, 3]
+        # Seen from above the heading says nothing.
+        assert up @ camera > 0 or camera[2] > 0.8 * np.linalg.norm(camera), index
+        below = {
+            panel.name: apply(placed.world_from_box, panel.triangles)[..., 2]
+            for panel in placed.panels
+            if panel.name.startswith("side")
+        }
+        (lower,) = (name for name, heights in below.items() if heights.max() < placed.box.board_m + 0.001)
+        assert min(heights.min() for heights in below.values()) == pytest.approx(0.0002, abs=1e-6)
+        sides.add(lower)
+    assert len(sides) >= 3
+
+
+def test_no_wall_stands_between_the_camera_and_the_scene() -> None:
+    """Walls are drawn without asking where the camera will be; of these scenes some had one before it."""
+    walls = 0
+    for index in range(240):
+        scene = draw_scene(np.random.default_rng((8001, index)), "pizza", kinect_camera(), None, clutter=False)
+        camera = inverse(scene.camera_from_world)[:3, 3]
+        for body in scene.bodies:
+            corners = body.triangles.reshape(-1, 3)
+            if len(body.triangles) != 2 or np.ptp(corners[:, 2]) < 1.0:
+                continue
+            normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+            assert (normal @ (camera - corners[0])) * (normal @ -corners[0]) > 0, index
+            walls += 1
+    assert walls > 30

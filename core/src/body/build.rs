@@ -53,7 +53,7 @@ pub fn build_object(
             let renumbered = fill_open_box(&mut object, template, roles, scene, set, found);
             (object, renumbered)
         }
-        Body::OpenBox(_) => {
+        Body::OpenBox(_) | Body::ClosedBox(_) => {
             fill_seen_parts(&mut object, template, scene, set, found);
             (object, assignment.clone())
         }

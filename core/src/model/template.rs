@@ -76,6 +76,18 @@ pub enum Body {
     Free,
     /// A base, four sides in a ring, and what hangs on their rims.
     OpenBox(OpenBoxRoles),
+    /// A base, four sides in a ring, and a top that lies on their rims as flap 0 of an open box would if it were shut.
+    ClosedBox(OpenBoxRoles),
+}
+
+impl Body {
+    /// Of a box, open or closed.
+    pub fn box_roles(&self) -> Option<&OpenBoxRoles> {
+        match self {
+            Self::Free => None,
+            Self::OpenBox(roles) | Self::ClosedBox(roles) => Some(roles),
+        }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -101,9 +101,6 @@ fn accept(entry: &AcceptEntry, names: &Names) -> Result<Accept> {
 }
 
 fn body(entry: Option<&BodyEntry>, names: &Names) -> Result<Body> {
-    let Some(BodyEntry::OpenBox { base, sides, flaps, tucks }) = entry else {
-        return Ok(Body::Free);
-    };
     let four = |list: &[String; 4]| -> Result<[Option<usize>; 4]> {
         let mut out = [None; 4];
         for (slot, name) in out.iter_mut().zip(list) {
@@ -111,13 +108,21 @@ fn body(entry: Option<&BodyEntry>, names: &Names) -> Result<Body> {
         }
         Ok(out)
     };
-    let sides = names.indices("body.sides", sides)?;
-    Ok(Body::OpenBox(OpenBoxRoles {
-        base: names.index("body.base", base)?,
-        sides: [sides[0], sides[1], sides[2], sides[3]],
-        flaps: four(flaps)?,
-        tucks: four(tucks)?,
-    }))
+    let roles = |base: &str, sides: &[String; 4], flaps: [Option<usize>; 4], tucks: [Option<usize>; 4]| {
+        let sides = names.indices("body.sides", sides)?;
+        let sides = [sides[0], sides[1], sides[2], sides[3]];
+        Ok(OpenBoxRoles { base: names.index("body.base", base)?, sides, flaps, tucks })
+    };
+    match entry {
+        None => Ok(Body::Free),
+        Some(BodyEntry::OpenBox { base, sides, flaps, tucks }) => {
+            Ok(Body::OpenBox(roles(base, sides, four(flaps)?, four(tucks)?)?))
+        }
+        Some(BodyEntry::ClosedBox { base, sides, top }) => {
+            let top = names.index("body.top", top)?;
+            Ok(Body::ClosedBox(roles(base, sides, [Some(top), None, None, None], [None; 4])?))
+        }
+    }
 }
 
 /// Joints form trees: one parent for each child, and nothing hangs on itself.
@@ -149,7 +154,9 @@ fn check_terms(template: &Template) -> Result<()> {
             return Err(at(*name, "two features or relations bear this name").mend("weights need a name each"));
         }
     }
-    for (p, part) in template.parts.iter().enumerate() {
+    // Rays speak for closed boxes, not segments.
+    let is_scored = !matches!(template.body, Body::ClosedBox(_));
+    for (p, part) in template.parts.iter().enumerate().filter(|_| is_scored) {
         let touched = template.features.iter().any(|term| term.parts.contains(&p))
             || template.relations.iter().any(|term| term.pairs.iter().any(|&(a, b)| a == p || b == p));
         if !touched {

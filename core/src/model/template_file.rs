@@ -128,4 +128,9 @@ pub enum BodyEntry {
         flaps: [String; 4],
         tucks: [String; 4],
     },
+    ClosedBox {
+        base: String,
+        sides: [String; 4],
+        top: String,
+    },
 }

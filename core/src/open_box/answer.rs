@@ -12,7 +12,7 @@ use crate::model::{Body, Template};
 /// Parts by their numbers in the template, with the indices of their readings.
 pub type PartReadings = Vec<(usize, Vec<u32>)>;
 
-/// A box as `model.json` tells it by a template, of that probability, and the readings of each of its parts; `None` where the template's body is no open box.
+/// A box as `model.json` tells it by a template, of that probability, and the readings of each of its parts; `None` where the template's body is no box.
 ///
 /// Coordinates are those of the first view's input; the readings of several views are numbered on from view to view.
 pub fn answer(
@@ -24,7 +24,7 @@ pub fn answer(
     settings: &FitSettings,
     judgement: Option<&Judgement>,
 ) -> Option<(ObjectAnswer, PartReadings)> {
-    let Body::OpenBox(box_roles) = &template.body else { return None };
+    let box_roles = template.body.box_roles()?;
     let roles = Role::of_parts(box_roles);
     let mut seen = vec![false; template.parts.len()];
     let mut parts: Vec<PartAnswer> = template.parts.iter().map(|part| PartAnswer::unseen(&part.name)).collect();
@@ -71,6 +71,14 @@ pub fn answer(
         joints: Vec::new(),
     };
     fill(&mut object, template, &roles, &seen, &solution, settings);
+    if let Body::ClosedBox(_) = template.body {
+        // Its top is no flap, and lies on the rim.
+        object.parameters.retain(|name, _| !name.starts_with("flap"));
+        let above = solution.body.board_m() / 2.0;
+        for dimensions in [&mut object.dimensions, &mut object.outer_dimensions].into_iter().flatten() {
+            dimensions[2] += above;
+        }
+    }
     object.size = found.size.map(|size| size.answer(sizes));
     for k in (0..4).filter(|&k| !found.labels.of(Role::Side(k)).is_empty()) {
         let points = found.labels.of(Role::Side(k)).iter().filter_map(|&index| reading_of(sights, index as usize));

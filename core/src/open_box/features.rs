@@ -8,13 +8,14 @@ use super::lean::lean;
 use super::owners::Owners;
 use super::rims;
 use super::sight::Sight;
+use super::upright::lies;
 use crate::fit::{layout, Role};
 
 /// Named values, always in the same order.
 pub type Features = Vec<(&'static str, f64)>;
 
 /// Their names, in order.
-pub const BOX_FEATURES: [&str; 28] = [
+pub const BOX_FEATURES: [&str; 29] = [
     "one",
     "on_walls",
     "on_inner_faces",
@@ -43,6 +44,7 @@ pub const BOX_FEATURES: [&str; 28] = [
     "rims_looked_through",
     "sides_go_on",
     "assignment",
+    "lies",
 ];
 pub const PART_FEATURES: [&str; 14] = [
     "one",
@@ -155,6 +157,7 @@ pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox) -> Fea
         ("rims_looked_through", rims_through),
         ("sides_go_on", sides_go_on / sides_seen.max(1.0)),
         ("assignment", assignments.score(found)),
+        ("lies", f64::from(u8::from(lies(body)))),
     ]
 }
 

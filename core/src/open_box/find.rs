@@ -22,7 +22,7 @@ const RIVALS_FITTED: usize = 8;
 const PROPOSED_SIGMA_M: f64 = 0.01;
 
 /// What was found in one frame.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Found {
     pub boxes: Vec<FoundBox>,
     /// Borne out, but their fit did not end in a box.

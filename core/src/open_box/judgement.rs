@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::features::{Features, BOX_FEATURES, PART_FEATURES};
+use super::features::{named, Features, BOX_FEATURES, PART_FEATURES};
 use super::trees::Tree;
 use crate::error::{InputError, Result};
 
@@ -11,6 +11,9 @@ use crate::error::{InputError, Result};
 pub struct Judgement {
     #[serde(rename = "box")]
     of_box: Odds,
+    /// Of boxes that lie on a side: shelves, stools and what leans on a wall look like them from more places.
+    #[serde(rename = "lying")]
+    of_lying: Odds,
     #[serde(rename = "part")]
     of_part: Odds,
 }
@@ -35,9 +38,11 @@ impl Judgement {
     pub fn from_json(text: &str) -> Result<Self> {
         let read: Self =
             serde_json::from_str(text).map_err(|e| InputError::new(e.to_string()).in_source("judgement"))?;
-        for (table, odds, known) in
-            [("box", &read.of_box, &BOX_FEATURES[..]), ("part", &read.of_part, &PART_FEATURES[..])]
-        {
+        for (table, odds, known) in [
+            ("box", &read.of_box, &BOX_FEATURES[..]),
+            ("lying", &read.of_lying, &BOX_FEATURES[..]),
+            ("part", &read.of_part, &PART_FEATURES[..]),
+        ] {
             if let Some(wrong) = odds.wrong(known) {
                 let mend = format!("it weighs {}", known.join(", "));
                 return Err(InputError::new(format!("judgement.{table}: {wrong}")).mend(mend));
@@ -48,13 +53,21 @@ impl Judgement {
 
     /// Each feature with its weight, the trees' sum with the weight 1, and the sum of all: the log of the odds that the box is one.
     pub fn of_box(&self, features: &Features) -> (f64, Vec<(&'static str, f64, f64)>) {
-        let terms = self.of_box.terms(features);
+        let terms = self.of_box_that_is(features).terms(features);
         (terms.iter().map(|(_, value, weight)| value * weight).sum(), terms)
     }
 
-    /// The least probability of a box that is told.
-    pub fn box_told_from(&self) -> f64 {
-        self.of_box.told_from
+    /// The least probability of a box with these features that is told.
+    pub fn box_told_from(&self, features: &Features) -> f64 {
+        self.of_box_that_is(features).told_from
+    }
+
+    fn of_box_that_is(&self, features: &Features) -> &Odds {
+        if named(features, "lies") > 0.5 {
+            &self.of_lying
+        } else {
+            &self.of_box
+        }
     }
 
     /// The least probability of a panel that is told.

@@ -68,7 +68,8 @@ pub fn turned([x, y, up]: &[Vec3; 3], yaw: f64) -> [Vec3; 3] {
 pub fn proposals(patches: &[Patch], rims: &[Patch], frame: &[Vec3; 3], yaw: f64) -> Vec<Proposal> {
     let axes = turned(frame, yaw);
     let first_rim = patches.len();
-    let patches = &[patches, rims].concat();
+    let along = |patch: &Patch| Along { patch: patch.clone(), spans: axes.each_ref().map(|axis| patch.span(axis)) };
+    let patches: &Vec<Along> = &patches.iter().chain(rims).map(along).collect();
     let found = [0, 1].map(|a| pairs(patches, first_rim, &axes, a));
     let mut plans: Vec<(f64, Proposal)> = Vec::new();
     for first in &found[0] {
@@ -81,15 +82,21 @@ pub fn proposals(patches: &[Patch], rims: &[Patch], frame: &[Vec3; 3], yaw: f64)
     plans.iter().flat_map(|(_, plan)| with_rims(patches, plan)).collect()
 }
 
+/// A patch, and how far it reaches along a box's directions and its up.
+struct Along {
+    patch: Patch,
+    spans: [[f64; 2]; 3],
+}
+
 /// Two opposite walls: low and high.
 type Pair = [Place; 2];
 
-fn pairs(patches: &[Patch], first_rim: usize, axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
+fn pairs(patches: &[Along], first_rim: usize, axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
     let (axis, across, up) = (&axes[a], &axes[1 - a], &axes[2]);
     let [mut low, mut high]: [Vec<Place>; 2] = [Vec::new(), Vec::new()];
-    for (number, patch) in patches.iter().enumerate() {
+    for (number, Along { patch, spans }) in patches.iter().enumerate() {
         if patch.is_upright(up) && patch.normal.dot(axis).abs() > LEAST_COS {
-            let [from, to] = patch.span(axis);
+            let [from, to] = spans[a];
             let at_m = (from + to) / 2.0;
             let shown_by = if number < first_rim { ShownBy::Wall(number) } else { ShownBy::Rim(number) };
             let shown = |at_m: f64| Place { at_m, shown_by };
@@ -103,7 +110,7 @@ fn pairs(patches: &[Patch], first_rim: usize, axes: &[Vec3; 3], a: usize) -> Vec
             }
         }
     }
-    for (number, patch) in patches.iter().enumerate() {
+    for (number, Along { patch, spans }) in patches.iter().enumerate() {
         let along = patch.level_direction(up);
         let runs = |direction: &Vec3| along.is_none_or(|along| along.dot(direction).abs() > LEAST_COS);
         // Walls across end where these stand; flaps hang on them with one of their edges.
@@ -114,10 +121,14 @@ fn pairs(patches: &[Patch], first_rim: usize, axes: &[Vec3; 3], a: usize) -> Vec
         } else {
             continue;
         };
-        for at_m in patch.span(axis) {
+        for at_m in spans[a] {
             low.push(Place { at_m, shown_by });
             high.push(Place { at_m, shown_by });
         }
+    }
+    if axis.z > LEAST_COS {
+        // The side on which a box lies is on the support.
+        low.push(Place { at_m: 0.0, shown_by: ShownBy::Nothing });
     }
     let (low, high) = (distinct(low), distinct(high));
     let fits = |l: &Place, h: &Place| (SIZES_M[0]..=SIZES_M[1]).contains(&(h.at_m - l.at_m));
@@ -148,7 +159,7 @@ fn distinct(places: Vec<Place>) -> Vec<Place> {
 }
 
 /// A box of two pairs of walls, where they fit each other, and how much of it is shown; its rim is still to come.
-fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, Proposal)> {
+fn plan(patches: &[Along], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, Proposal)> {
     let spans = pairs.map(|pair| [pair[0].at_m, pair[1].at_m]);
     let (mut walls, mut flaps, mut shown, mut by_flaps, mut lowest) = (0, 0, 0.0, 0.0, f64::INFINITY);
     for wall in 0..4 {
@@ -157,9 +168,9 @@ fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
             ShownBy::Flap(number) => (number, false),
             ShownBy::Nothing => continue,
         };
-        let patch = &patches[number];
+        let Along { patch, spans: along } = &patches[number];
         let other = 1 - wall / 2;
-        let [from, to] = patch.span(&axes[other]);
+        let [from, to] = along[other];
         let [low, high] = spans[other];
         let overhang = (low - from).max(0.0) + (to - high).max(0.0);
         let overlap = to.min(high) - from.max(low);
@@ -169,7 +180,7 @@ fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
         let readings = patch.readings.min(MOST_READINGS) * (overlap / (high - low));
         if is_wall {
             walls += 1;
-            lowest = patch.span(&axes[2])[0].min(lowest);
+            lowest = along[2][0].min(lowest);
             shown += readings;
         } else {
             flaps += 1;
@@ -186,7 +197,7 @@ fn plan(patches: &[Patch], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
 }
 
 /// The plan with each height at which its rim may be: where its walls end, where tilted panels meet its walls.
-fn with_rims(patches: &[Patch], plan: &Proposal) -> Vec<Proposal> {
+fn with_rims(patches: &[Along], plan: &Proposal) -> Vec<Proposal> {
     let mut rims: Vec<(f64, f64)> = Vec::new();
     for wall in 0..4 {
         for patch in patches {
@@ -210,20 +221,20 @@ fn with_rims(patches: &[Patch], plan: &Proposal) -> Vec<Proposal> {
 }
 
 /// The height at which a patch says that a wall ends, and how loudly.
-fn rim(patch: &Patch, plan: &Proposal, wall: usize) -> Option<(f64, f64)> {
+fn rim(Along { patch, spans }: &Along, plan: &Proposal, wall: usize) -> Option<(f64, f64)> {
     let (a, is_high) = (wall / 2, wall % 2 == 1);
     let (axis, across, up) = (&plan.axes[a], &plan.axes[1 - a], &plan.up);
     let at_m = plan.spans[a][usize::from(is_high)];
-    let ([from, to], [low, high]) = (patch.span(across), plan.spans[1 - a]);
+    let ([from, to], [low, high]) = (spans[1 - a], plan.spans[1 - a]);
     let overlap = (to.min(high) - from.max(low)) / (high - low);
     if overlap < LEAST_COVER || overlap * (high - low) < 0.5 * (to - from) {
         return None;
     }
-    let [near, far] = patch.span(axis);
+    let [near, far] = spans[a];
     let lean = patch.normal.dot(axis);
     if patch.is_upright(up) && lean.abs() > LEAST_COS {
         let inside = at_m - 0.015..=at_m + 0.015;
-        return inside.contains(&((near + far) / 2.0)).then(|| (patch.span(up)[1], overlap * OF_TOPS));
+        return inside.contains(&((near + far) / 2.0)).then(|| (spans[2][1], overlap * OF_TOPS));
     }
     // A flap: its plane meets the wall's at the hinge, which is where it ends too.
     let rise = patch.normal.dot(up);

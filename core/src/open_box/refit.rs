@@ -5,10 +5,11 @@ use super::evidence::Sheet;
 use super::labels::{Labels, Present};
 use super::settle::{lowest_m, settled, LEVEL_COS};
 use super::sight::Sight;
+use super::upright::{lies, lower_side};
 use crate::cloud::CloudView;
 use crate::fit::{
-    kept_length, priors, solve, FitSettings, FittedBody, NotFitted, OtherView, PartEnds, PartReadings, PartSegment,
-    PlaceSigma, Prior, Problem, Role, Sensor, Solution, Support,
+    kept_length, layout, priors, solve, FaceReading, FitSettings, FittedBody, NotFitted, OtherView, PartEnds,
+    PartReadings, PartSegment, PlaceSigma, Prior, Problem, Rim, Role, Sensor, Solution, Support,
 };
 use crate::geometry::{Plane, Vec3};
 
@@ -47,7 +48,7 @@ pub fn refit_views(
         views.iter().map(|(sight, labels)| readings_of(sight, body, present, labels, shared)).collect();
     let kept = kept_lengths(&told, body);
     let mut parts = told.into_iter().map(|told| told.into_iter().map(|(readings, _)| readings).collect());
-    let first = parts.next().unwrap_or_default();
+    let mut first: Vec<PartReadings> = parts.next().unwrap_or_default();
     let others = views
         .iter()
         .skip(1)
@@ -56,15 +57,34 @@ pub fn refit_views(
     let up = (body.input_from_object.rotation * Vec3::z()).z;
     let stands = lowest_m(body).abs() < settings.stands_on_support_m;
     let plane = Plane { normal: Vec3::z(), distance: 0.0 };
+    if stands && lies(body) {
+        first.push(on_support(body, settings));
+    }
     let problem = Problem {
         parts: first,
         others: others.collect(),
-        support: stands.then_some(Support { plane, is_level: up > LEVEL_COS }),
+        support: (stands && !lies(body)).then_some(Support { plane, is_level: up > LEVEL_COS }),
         priors: priors(body).into_iter().chain(kept).collect(),
         settings: *settings,
     };
     solve(&problem, body)
 }
+
+/// The support below a body that lies, as readings on the outer face of its lower side.
+fn on_support(body: &FittedBody, settings: &FitSettings) -> PartReadings {
+    let role = Role::Side(lower_side(body));
+    let (rim, half_m) = (Rim::new(body, role.side()), UNDER_SHARE * body.edge_m(role.side()) / 2.0);
+    let below = [1.0 - UNDER_SHARE, UNDER_SHARE].map(|share| -share * body.get(layout::HEIGHT));
+    let places = below.iter().flat_map(|&above| [(-half_m, above), (half_m, above)]);
+    let reading = |(along, above): (f64, f64)| {
+        let place = body.to_input(&rim.place(along, 0.0, above));
+        FaceReading { point: Vec3::new(place.x, place.y, 0.0), sigma_m: settings.support_sigma_m }
+    };
+    PartReadings { role, face: 1.0, faces: places.map(reading).collect(), face_information: 1.0, ends: Vec::new() }
+}
+
+/// How far towards its corners a box is held against what it lies on.
+const UNDER_SHARE: f64 = 0.9;
 
 /// Of a view's place where the body is: far off a turn of the camera is a shift.
 fn sigma(sight: &Sight, body: &FittedBody, settings: &FitSettings) -> PlaceSigma {

@@ -2,6 +2,7 @@
 
 use nalgebra::{Translation3, UnitQuaternion};
 
+use super::upright::{lies, lower_side};
 use crate::fit::{layout, FittedBody};
 use crate::geometry::Vec3;
 
@@ -24,6 +25,11 @@ pub fn settled(body: &FittedBody) -> FittedBody {
         out.input_from_object.rotation = turn * body.input_from_object.rotation;
         out.input_from_object.translation = Translation3::new(rim.x, rim.y, 0.0);
         out.numbers[layout::HEIGHT] = rim.z;
+    } else if lies(body) {
+        // Its upper side stays.
+        let upright = [layout::WIDTH, layout::LENGTH, layout::WIDTH, layout::LENGTH][lower_side(body)];
+        out.input_from_object.translation.vector.z += depth / 2.0;
+        out.numbers[upright] -= depth;
     } else {
         let cut = depth / up.z;
         out.input_from_object.translation.vector += up * cut;
@@ -41,7 +47,10 @@ pub fn is_sunk(body: &FittedBody) -> bool {
 pub fn lowest_m(body: &FittedBody) -> f64 {
     let (l, w) = (body.get(layout::LENGTH) / 2.0, body.get(layout::WIDTH) / 2.0);
     let corners = [[-l, -w], [l, -w], [l, w], [-l, w]];
-    corners.iter().map(|[x, y]| body.to_input(&Vec3::new(*x, *y, 0.0)).z).fold(f64::INFINITY, f64::min)
+    // What lies does so on a side's outer face, rim and foot.
+    let (top, half_board) = if lies(body) { (body.get(layout::HEIGHT), body.board_m() / 2.0) } else { (0.0, 0.0) };
+    let height = |z: f64| move |[x, y]: &[f64; 2]| body.to_input(&Vec3::new(*x, *y, z)).z;
+    corners.iter().map(height(0.0)).chain(corners.iter().map(height(top))).fold(f64::INFINITY, f64::min) - half_board
 }
 
 #[cfg(test)]
@@ -67,6 +76,40 @@ mod tests {
             let given = body(z_m, lean_rad);
             assert_eq!(settled(&given), given);
         }
+    }
+
+    /// A box of 0.4 x 0.3 x 0.2 m on side 0, 1, 2 or 3, whose outer face is this high.
+    fn lying(side: usize, z_m: f64) -> FittedBody {
+        let mut given = body(0.0, 0.0);
+        given.numbers[layout::THICKNESS] = 0.004;
+        let turn = [Vec3::x(), Vec3::y(), -Vec3::x(), -Vec3::y()][side] * std::f64::consts::FRAC_PI_2;
+        let across = if side == 0 || side == 2 { 0.3 } else { 0.4 };
+        given.input_from_object = Isometry3::new(Vec3::new(0.1, 0.2, z_m + across / 2.0 + 0.002), turn);
+        given
+    }
+
+    #[test]
+    fn what_lies_is_told_from_what_stands_and_loses_what_sinks_of_its_lower_side() {
+        let mut cases = 0;
+        for side in 0..4 {
+            for z_m in [0.03, 0.0, -0.004, -0.05] {
+                let given = lying(side, z_m);
+                assert!(lies(&given) && !lies(&body(0.0, 0.26)));
+                assert_eq!(lower_side(&given), side);
+                assert!((lowest_m(&given) - z_m).abs() < 1e-12, "{side} {z_m}: {}", lowest_m(&given));
+                let out = settled(&given);
+                if z_m < -SUNK_M {
+                    let upright = [layout::WIDTH, layout::LENGTH][side % 2];
+                    let top = |body: &FittedBody| body.input_from_object.translation.z + body.get(upright) / 2.0;
+                    assert!(lowest_m(&out).abs() < 1e-12);
+                    assert!((top(&out) - top(&given)).abs() < 1e-12);
+                } else {
+                    assert_eq!(out, given);
+                }
+                cases += 1;
+            }
+        }
+        assert_eq!(cases, 16);
     }
 
     #[test]

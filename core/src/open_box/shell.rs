@@ -118,6 +118,30 @@ impl Rays {
         (looked.score() >= least).then_some(looked)
     }
 
+    /// Pixels that meet the outside of a closed box less twice those that look through it; `None` where it is not in the image.
+    pub fn look_at_closed(&self, sight: &Sight, proposal: &Proposal, turned: &RaysAlong) -> Option<f64> {
+        let [left, right, top, bottom] = self.bounds(sight, proposal)?;
+        let [x, y] = proposal.spans;
+        let slabs = [x, y, proposal.heights];
+        let mut score = 0.0;
+        for k in (top..=bottom).flat_map(|row| (left..=right).map(move |column| row * self.columns + column)) {
+            let (ray, inverse) = &turned.rays[k];
+            if !ray[0].is_finite() {
+                continue;
+            }
+            let Some((axis, at)) = enter(&turned.eye, inverse, &slabs) else { continue };
+            let reach = ray[axis].abs();
+            let off = (1.0 - at) * reach;
+            let tolerance = self.tolerance[k] * reach + MODEL_M;
+            if off.abs() <= tolerance {
+                score += 1.0;
+            } else if off > tolerance {
+                score -= 2.0;
+            }
+        }
+        Some(score * (STRIDE * STRIDE) as f64)
+    }
+
     /// Of the box in the grid of rays: left, right, top, bottom, inclusive.
     fn bounds(&self, sight: &Sight, proposal: &Proposal) -> Option<[usize; 4]> {
         let mut bounds = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
@@ -139,6 +163,19 @@ impl Rays {
             ]
         })
     }
+}
+
+/// The axis of the face by which a ray enters a closed box, and where, the reading being at 1.
+fn enter(eye: &[f64; 3], inverse: &[f64; 3], slabs: &[[f64; 2]; 3]) -> Option<(usize, f64)> {
+    let (mut entry, mut exit) = ((0, f64::NEG_INFINITY), f64::INFINITY);
+    for axis in 0..3 {
+        let (a, b) = ((slabs[axis][0] - eye[axis]) * inverse[axis], (slabs[axis][1] - eye[axis]) * inverse[axis]);
+        if a.min(b) > entry.1 {
+            entry = (axis, a.min(b));
+        }
+        exit = exit.min(a.max(b));
+    }
+    (entry.1 < exit && entry.1 > 0.0).then_some(entry)
 }
 
 struct Face {

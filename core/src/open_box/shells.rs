@@ -11,7 +11,7 @@ use super::rims::{self, OnRims};
 use super::shell::{Rays, ShellLook};
 use super::sight::Sight;
 use super::start::body_of;
-use super::upright::ways_up;
+use super::upright::{lying_frames, ways_up};
 use super::yaw::{near, yaws};
 use crate::geometry::Vec3;
 use crate::perception::Scene;
@@ -42,7 +42,7 @@ impl Shell {
 pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
     let patches = Patch::of_things(scene, sight);
     let rays = Rays::new(sight);
-    let proposed = all_proposals(&patches, &edge_points(sight));
+    let proposed = all_proposals(&patches, &edge_points(sight), &sight.eye);
     // Proposals come by their directions.
     let of_one_direction: Vec<&[Proposal]> = proposed.chunk_by(|a, b| a.axes == b.axes && a.up == b.up).collect();
     let look = |proposals: &&[Proposal]| borne_out(sight, &rays, proposals);
@@ -76,7 +76,7 @@ fn borne_out(sight: &Sight, rays: &Rays, proposals: &[Proposal]) -> Vec<Shell> {
     out
 }
 
-fn all_proposals(patches: &[Patch], edges: &[Vec3]) -> Vec<Proposal> {
+fn all_proposals(patches: &[Patch], edges: &[Vec3], eye: &Vec3) -> Vec<Proposal> {
     let mut out = Vec::new();
     for up in ways_up(patches) {
         let x = (Vec3::x() - up * up.x).normalize();
@@ -94,6 +94,9 @@ fn all_proposals(patches: &[Patch], edges: &[Vec3]) -> Vec<Proposal> {
             out.extend(proposals(patches, &rims, &frame, yaw));
             out.extend(of_lids(patches, &frame, yaw));
         }
+        for frame in lying_frames(patches, &of_patches, eye) {
+            out.extend(proposals(patches, &[], &frame, 0.0));
+        }
     }
     out
 }
@@ -101,6 +104,7 @@ fn all_proposals(patches: &[Patch], edges: &[Vec3]) -> Vec<Proposal> {
 /// So many pixels for a box more than against it.
 pub const LEAST_SCORE: f64 = 300.0;
 const ALIKE_M: f64 = 0.009;
+const ALIKE_UP_COS: f64 = 0.7;
 
 fn alike(a: &Proposal, b: &Proposal) -> bool {
     let same_axes = a.axes[0].dot(&b.axes[0]) > 0.998 && a.up.dot(&b.up) > 0.9993;
@@ -112,7 +116,10 @@ fn alike(a: &Proposal, b: &Proposal) -> bool {
 pub fn overlap(a: &Proposal, b: &Proposal) -> bool {
     let within = |a: &Proposal, b: &Proposal| {
         let middle = middle(b);
-        (0..2).all(|i| (a.spans[i][0]..=a.spans[i][1]).contains(&a.axes[i].dot(&middle)))
+        let is_between = |[low, high]: [f64; 2], axis: &Vec3| (low..=high).contains(&axis.dot(&middle));
+        // What stands on one support is told apart by where it stands; what lies has no end of its own above.
+        let is_alike = a.up.dot(&b.up) > ALIKE_UP_COS;
+        (0..2).all(|i| is_between(a.spans[i], &a.axes[i])) && (is_alike || is_between(a.heights, &a.up))
     };
     within(a, b) || within(b, a)
 }

@@ -1,5 +1,6 @@
 //! Boxes that the depth image bears out, told by the most probable template.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use super::{Answer, ObjectFeatures};
@@ -8,7 +9,8 @@ use crate::error::Result;
 use crate::fit::{FitSettings, KnownSize};
 use crate::inference::ObjectModel;
 use crate::model::Template;
-use crate::open_box::{self, open_boxes, Assignments, FoundBox, Judgement, Kinds, Refusal, Refused, Shape, Sight};
+use crate::open_box::{self, closed_box, find_closed, open_boxes, Assignments, Found, FoundBox, Judgement};
+use crate::open_box::{Kinds, PartReadings, Refusal, Refused, Shape, Sight};
 use crate::perception::readings::Readings;
 use crate::perception::Scene;
 
@@ -38,16 +40,25 @@ pub fn whole_boxes(
 ) -> Result<Option<Answer>> {
     let start = Instant::now();
     let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
-    if open_boxes(&templates).next().is_none() {
+    let (has_open, closed) = (open_boxes(&templates).next().is_some(), closed_box(&templates));
+    if !has_open && closed.is_none() {
         return Ok(None);
     }
     let telling = Telling { templates: &templates, kinds, judgement, sizes, settings: FitSettings::default() };
     let Some(sight) = Sight::new(cloud, readings, scene) else { return Ok(None) };
     let assignments = Assignments::new(scene, cloud.points.len(), models)?;
     let assigned = start.elapsed().as_secs_f64();
-    let found = open_box::find(&sight, scene, &assignments, sizes, &telling.settings, judgement);
+    let found = if has_open {
+        open_box::find(&sight, scene, &assignments, sizes, &telling.settings, judgement)
+    } else {
+        Found::default()
+    };
     let in_stages: f64 = found.stage_seconds.iter().map(|(_, seconds)| seconds).sum();
-    let mut answer = tell_boxes(&found.boxes, &found.refused, &[sight], &telling);
+    let sights = [sight];
+    let mut answer = tell_boxes(&found.boxes, &found.refused, &sights, &telling);
+    if let Some(number) = closed {
+        tell_closed(&mut answer, scene, &sights, templates[number], &telling);
+    }
     if answer.objects.is_empty() && answer.refused.is_empty() {
         answer.refused.push(NOTHING_HELD.to_owned());
     }
@@ -79,6 +90,20 @@ pub fn tell_boxes(found: &[FoundBox], refused: &[Refused], sights: &[Sight], tel
     answer
 }
 
+/// Adds the closed boxes among the readings that no open one has. Nobody has learnt how probable they are.
+fn tell_closed(answer: &mut Answer, scene: &Scene, sights: &[Sight; 1], template: &Template, telling: &Telling) {
+    let Telling { sizes, settings, .. } = telling;
+    let taken: Vec<bool> = answer.object_of_point.iter().map(|&object| object >= 0).collect();
+    for one in find_closed(&sights[0], scene, &taken, settings) {
+        if let Some((object, parts)) = open_box::answer(&one, template, None, sights, sizes, settings, None) {
+            answer.give(parts);
+            answer.features.push(ObjectFeatures { of_box: BTreeMap::new(), parts: BTreeMap::new() });
+            answer.objects.push(object);
+            answer.shapes.push(None);
+        }
+    }
+}
+
 fn lines(refused: &[Refused], first: &Sight) -> Vec<String> {
     refused.iter().map(|one| one.line(&first.input_from_level)).collect()
 }
@@ -91,7 +116,7 @@ fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Tel
     let (number, probability) = kinds.choose(&shape, templates)?;
     let told = open_box::answer(one, templates[number], probability, sights, sizes, settings, *judgement);
     let (object, parts) = told?;
-    let least = judgement.map_or(0.0, Judgement::box_told_from);
+    let least = judgement.map_or(0.0, |judgement| judgement.box_told_from(&one.features));
     if let Some(probability) = object.probability.filter(|p| *p < least) {
         return Some(Refusal::Improbable { probability, least });
     }
@@ -106,16 +131,23 @@ fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Tel
         let number = answer.objects.len();
         answer.warnings.push(format!("object {number}: its body is fitted to fewer of its readings: of all, {why}"));
     }
-    for (part, points) in parts {
-        for point in points {
-            answer.object_of_point[point as usize] = answer.objects.len() as i16;
-            answer.part_of_point[point as usize] = part as i16;
-        }
-    }
+    answer.give(parts);
     let by_name = |features: &open_box::Features| features.iter().copied().collect();
     let parts = one.part_features.iter().map(|(role, features)| (role.name(), by_name(features)));
     answer.features.push(ObjectFeatures { of_box: by_name(&one.features), parts: parts.collect() });
     answer.objects.push(object);
     answer.shapes.push(Some(shape));
     None
+}
+
+impl Answer {
+    /// Gives the next object its parts' readings.
+    fn give(&mut self, parts: PartReadings) {
+        for (part, points) in parts {
+            for point in points {
+                self.object_of_point[point as usize] = self.objects.len() as i16;
+                self.part_of_point[point as usize] = part as i16;
+            }
+        }
+    }
 }

@@ -13,6 +13,9 @@ const NO_FREE_SPACE: &str =
     "free space was not used: the cloud has no image grid or no viewpoint, so what hides a part and \
                              what is not there look alike, and no part's state is told";
 
+const NO_CLOSED: &str =
+    "closed boxes were not looked for: the cloud has no image grid or no viewpoint, and rays tell them";
+
 const NOTHING_SCORES: &str = "no object: no assignment of the segments to a template's parts scores enough";
 
 /// As `understand`; the template of each box is then the most probable of all that were asked for.
@@ -41,6 +44,9 @@ pub fn fitted_boxes(
             answer = other;
         }
     }
+    if models.iter().any(|model| matches!(model.template.body, Body::ClosedBox(_))) {
+        answer.warnings.push(NO_CLOSED.to_owned());
+    }
     name_kinds(&mut answer, models, kinds);
     drop_unfitted(&mut answer, models);
     if answer.objects.iter().any(|object| Shape::of_answer(object).is_some()) {
@@ -49,12 +55,14 @@ pub fn fitted_boxes(
     Ok(answer)
 }
 
-/// Boxes without flaps are found as boxes whose flaps are not seen, where there is a template of such.
+/// Boxes without flaps are found as boxes whose flaps are not seen, where there is a template of such; closed boxes by rays alone.
 fn searched(models: &[ObjectModel]) -> Vec<ObjectModel> {
     let has_flaps = |roles: &OpenBoxRoles| roles.flaps.iter().any(Option::is_some);
     let some_have = models.iter().any(|model| matches!(&model.template.body, Body::OpenBox(roles) if has_flaps(roles)));
     let is_covered = |body: &Body| some_have && matches!(body, Body::OpenBox(roles) if !has_flaps(roles));
-    models.iter().filter(|model| !is_covered(&model.template.body)).cloned().collect()
+    let is_closed = |body: &Body| matches!(body, Body::ClosedBox(_));
+    let is_left_out = |body: &Body| is_covered(body) || is_closed(body);
+    models.iter().filter(|model| !is_left_out(&model.template.body)).cloned().collect()
 }
 
 fn unfitted(answer: &Answer, models: &[ObjectModel]) -> Vec<String> {

@@ -100,7 +100,8 @@ TemplateOption = Annotated[
     typer.Option(
         "--template",
         metavar="NAME|FILE.toml",
-        help="Object template; repeatable, they compete. Default: carton, cake_box, pizza_box; fitted: tote too.",
+        help="Object template; repeatable, they compete. Default: carton, cake_box, pizza_box; fitted: tote too. "
+        "closed_carton, fitted: closed boxes.",
         rich_help_panel=MODEL,
     ),
 ]

@@ -18,7 +18,7 @@ def synth(
         list[str] | None,
         typer.Option(
             help="small, medium, large, carton, cake, pizza (the default: these six in turn), tote (no flaps), upright "
-            "(all flaps stand up), part_shut (some are shut), or none (no open box). Repeatable."
+            "(all flaps stand up), part_shut (some are shut), lying (on a side), closed, or none (no box). Repeatable."
         ),
     ] = None,
     boxes: Annotated[

@@ -36,6 +36,15 @@ def train(
         list[str] | None,
         typer.Option("--category", help="Learn from frames of this category alone; repeatable. Default: all."),
     ] = None,
+    lying: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--lying",
+            metavar="SET",
+            help="Frames of boxes on their side, from which only how such boxes are judged is learnt; repeatable. "
+            "--method fitted.",
+        ),
+    ] = None,
     method: MethodOption = None,
     learner: Annotated[
         Literal["ridge", "margin", "likelihood"] | None,
@@ -88,8 +97,10 @@ def train(
 
     method = method or ("fitted" if template is None else "paper")
     if method == "fitted":
-        learn_judgement_of(folders, output, jobs, as_json)
+        learn_judgement_of(folders, lying or [], output, jobs, as_json)
         return
+    if lying:
+        raise typer.BadParameter("only the method fitted tells boxes that lie", param_hint="--lying")
     if template is None:
         raise typer.BadParameter("name the template whose weights are learned", param_hint="--template")
     planes = planes or PLANES_OF_METHOD[method]
@@ -117,7 +128,7 @@ def train(
         raise typer.Exit(1)
 
 
-def learn_judgement_of(folders: list[Path], output: Path, jobs: int | None, as_json: bool) -> None:
+def learn_judgement_of(folders: list[Path], lying: list[Path], output: Path, jobs: int | None, as_json: bool) -> None:
     """Learns by what fitted boxes are judged, and tells it."""
     import shlex
     import sys
@@ -130,6 +141,7 @@ def learn_judgement_of(folders: list[Path], output: Path, jobs: int | None, as_j
 
     learned = learn_judgement(
         [entry for folder in folders for entry in list_set(folder)],
+        [entry for folder in lying for entry in list_set(folder)],
         command=shlex.join(["boxwright", *sys.argv[1:]]),
         jobs=jobs or processors(),
         progress=lambda line: print(line, file=sys.stderr, flush=True),

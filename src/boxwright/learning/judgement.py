@@ -24,6 +24,8 @@ RIDGE = 100.0
 STEPS = 60
 TOLD_FROM = 0.5
 """Told is what has this probability or more."""
+LYING_TOLD_FROM = 0.8
+"""The same of boxes that lie on a side: the frames hold more of them than the world, and few shelves."""
 RIGHT_SHARE = 0.25
 """A box is right when its right less its wrong panels are at least this share of those in the cloud."""
 
@@ -61,20 +63,21 @@ class Odds(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class LearnedJudgement(msgspec.Struct, frozen=True, kw_only=True):
-    """How a box and a part are judged (`boxwright.judgement`, version 2)."""
+    """How a box and a part are judged (`boxwright.judgement`, version 3); boxes on a side by odds of their own."""
 
     box: Odds
+    lying: Odds
     part: Odds
     training: JudgementReport
     format: Literal["boxwright.judgement"] = "boxwright.judgement"
-    version: Literal[2] = 2
+    version: Literal[3] = 3
 
     def save(self, path: str | Path) -> None:
         """Writes it as JSON, each tree on a line."""
-        bare = [msgspec.structs.replace(odds, trees=[]) for odds in (self.box, self.part)]
-        told = msgspec.json.encode(msgspec.structs.replace(self, box=bare[0], part=bare[1]))
+        box, lying, part = (msgspec.structs.replace(odds, trees=[]) for odds in (self.box, self.lying, self.part))
+        told = msgspec.json.encode(msgspec.structs.replace(self, box=box, lying=lying, part=part))
         text = msgspec.json.format(told, indent=1).decode()
-        for odds in (self.box, self.part):
+        for odds in (self.box, self.lying, self.part):
             lines = ",\n".join(f"   {msgspec.json.encode(tree).decode()}" for tree in odds.trees)
             text = text.replace('"trees": []', f'"trees": [\n{lines}\n  ]', 1)
         Path(path).write_text(text + "\n", encoding="utf-8")
@@ -88,29 +91,38 @@ class Examples(msgspec.Struct, frozen=True):
 
 
 def learn_judgement(
-    entries: Sequence[SetEntry], *, command: str, jobs: int, progress: Callable[[str], None] = lambda line: None
+    entries: Sequence[SetEntry],
+    lying: Sequence[SetEntry] = (),
+    *,
+    command: str,
+    jobs: int,
+    progress: Callable[[str], None] = lambda line: None,
 ) -> LearnedJudgement:
     """Weights from labelled frames, with boxes and without; the same frames give the same weights.
+
+    From `lying`, frames of boxes on their side, only how such boxes are judged is learnt.
 
     Raises ValueError where a frame cannot be used, where the frames hold no right box or no false one, and without
     scikit-learn.
     """
     require_learner()
-    before = list(_seen(entries, None, jobs, lambda line: progress(f"unjudged: {line}")))
-    first = _fitted(before, told_from=0.0)
-    text = msgspec.json.encode({"box": first[0], "part": first[1]}).decode()
+    count, every = len(entries), [*entries, *lying]
+    before = list(_seen(every, None, jobs, lambda line: progress(f"unjudged: {line}")))
+    first = _fitted(before[:count], before, told_from=(0.0, 0.0))
+    text = msgspec.json.encode(dict(zip(("box", "lying", "part"), first, strict=True))).decode()
     # A judgement chooses among rivals, so that it meets others than those that it learnt from.
-    judged = list(_seen(entries, text, jobs, lambda line: progress(f"judged: {line}")))
+    judged = list(_seen(every, text, jobs, lambda line: progress(f"judged: {line}")))
     examples = before + judged
-    box, part = _fitted(examples, TOLD_FROM)
+    box, of_lying, part = _fitted(before[:count] + judged[:count], examples, (TOLD_FROM, LYING_TOLD_FROM))
     boxes = [is_right for frame in examples for _, is_right in frame.boxes]
     parts = [is_right for frame in examples for _, is_right in frame.parts]
     return LearnedJudgement(
         box=box,
+        lying=of_lying,
         part=part,
         training=JudgementReport(
             command=command,
-            frames=len(entries),
+            frames=len(every),
             boxes=len(boxes),
             false_boxes=boxes.count(False),
             parts=len(parts),
@@ -119,17 +131,21 @@ def learn_judgement(
     )
 
 
-def _fitted(examples: Sequence[Examples], told_from: float) -> tuple[Odds, Odds]:
-    """Of boxes and of parts."""
+def _fitted(
+    examples: Sequence[Examples], with_lying: Sequence[Examples], told_from: tuple[float, float]
+) -> tuple[Odds, Odds, Odds]:
+    """Of boxes that stand, of boxes that lie, and of parts; how a box stands tells of those that lie, too."""
     found = {
-        "box": [example for frame in examples for example in frame.boxes],
+        "box": [example for frame in examples for example in frame.boxes if example[0]["lies"] < 0.5],
+        "box on its side": [example for frame in with_lying for example in frame.boxes],
         "part": [example for frame in examples for example in frame.parts],
     }
     for name, told in found.items():
         if len({is_right for _, is_right in told}) < 2:
             raise ValueError(f"the frames show no right and wrong {name} to tell apart; add frames, empty ones too")
-    box, part = (fit_odds(told, told_from) for told in found.values())
-    return box, part
+    least = (told_from[0], told_from[1], told_from[0])
+    box, lying, part = (fit_odds(told, of) for told, of in zip(found.values(), least, strict=True))
+    return box, lying, part
 
 
 def fit_odds(examples: Sequence[tuple[dict[str, float], bool]], told_from: float) -> Odds:

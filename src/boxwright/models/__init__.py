@@ -1,6 +1,8 @@
 """Object models as data: templates (TOML) and learned weights (JSON)."""
 
 from boxwright.models.catalogue import (
+    CLOSED,
+    FITTED,
     FITTED_TEMPLATES,
     TEMPLATE_NAMES,
     load_judgement,
@@ -13,6 +15,8 @@ from boxwright.models.kinds import LearnedKinds, load_kinds
 from boxwright.models.weights import LearnedWeights
 
 __all__ = [
+    "CLOSED",
+    "FITTED",
     "FITTED_TEMPLATES",
     "TEMPLATE_NAMES",
     "LearnedKinds",

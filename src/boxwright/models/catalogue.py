@@ -12,7 +12,11 @@ from boxwright.models.weights import LearnedWeights
 TEMPLATE_NAMES = ("carton", "cake_box", "pizza_box")
 """The shipped templates that compete where none is named, in the methods "paper" and "exact"."""
 FITTED_TEMPLATES = (*TEMPLATE_NAMES, "tote")
-"""Those of the method "fitted": all that are shipped."""
+"""Those of the method "fitted"."""
+CLOSED = "closed_carton"
+"""Shipped too, for the method "fitted" where it is named: rays tell closed boxes, without weights."""
+SHIPPED_TEMPLATES = (*FITTED_TEMPLATES, CLOSED)
+NO_WEIGHTS = LearnedWeights(template=CLOSED, weights={}, importance={}, accept_score=0.0)
 
 _HERE = Path(__file__).parent
 # Made once, at import: threads that make their first decoder of a type together have crashed.
@@ -47,13 +51,15 @@ def load_judgement() -> str:
 
 
 def _template_path(name_or_path: str | Path, shipped: str | None) -> Path:
-    if str(name_or_path) in FITTED_TEMPLATES:
+    if str(name_or_path) in SHIPPED_TEMPLATES:
         folder = _HERE / "templates"
-        return (folder / EXACT if shipped == EXACT else folder) / f"{name_or_path}.toml"
+        # Rays tell closed boxes: they have one template, without terms.
+        is_exact = shipped == EXACT or str(name_or_path) == CLOSED
+        return (folder / EXACT if is_exact else folder) / f"{name_or_path}.toml"
     path = Path(name_or_path)
     if path.suffix != ".toml":
         raise ValueError(
-            f"{name_or_path}: no template of that name; shipped are {', '.join(FITTED_TEMPLATES)}, or name a .toml file"
+            f"{name_or_path}: no template of that name; known are {', '.join(SHIPPED_TEMPLATES)}, or name a .toml file"
         )
     return path
 
@@ -103,6 +109,9 @@ def load_object_model(
     weights, as for those above. Raises as those do.
     """
     loaded = load_template(template, shipped)
+    if not loaded.feature_names and not loaded.relation_names:
+        none = msgspec.structs.replace(NO_WEIGHTS, template=loaded.name)
+        return loaded, _core.ObjectModel(loaded, msgspec.json.encode(none).decode(), **search)
     if weights is None and loaded.name not in FITTED_TEMPLATES:
         raise ValueError(
             f"{template}: no weights are shipped for {loaded.name!r}; train some and name them with --weights"

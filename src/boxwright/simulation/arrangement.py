@@ -11,15 +11,20 @@ from boxwright.simulation.clearance import free_flaps, is_clear_of
 from boxwright.simulation.clutter import draw_thing
 from boxwright.simulation.kinds import draw_box
 from boxwright.simulation.meshes import cuboid
+from boxwright.simulation.panels import outline
 from boxwright.simulation.poses import apply, rotation, standing, translation
 from boxwright.simulation.scene import Body, PlacedBox, place
+from boxwright.simulation.states import LYING
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator
 
 TRIES = 30
+GROUND_GAP_M = 0.0002
 THING_GAP_M = 0.001
 """A thing that touches a box keeps this much from it."""
+STANDS_COS = 0.9
+"""Nothing is put on the base of a box that leans more."""
 STEP_M = 0.01
 SPOTS = ("touching", "inside", "around")
 
@@ -42,12 +47,16 @@ def _freed_box(rng: Rng, category: str, variant: str | None, *, is_tilted: bool)
     """A box at the origin whose boards keep clear of each other, and the book under it if it is tilted."""
     for _ in range(TRIES):
         box = draw_box(rng, category, variant)
-        world_from_box, book = _tilt(rng, box) if is_tilted else (np.eye(4), [])
+        if category == LYING:
+            box, world_from_box = _lie(rng, box)
+            book: list[Body] = []
+        else:
+            world_from_box, book = _tilt(rng, box) if is_tilted else (np.eye(4), [])
         freed = free_flaps(rng, box, world_from_box)
         if freed is None:
             continue
         placed = place(freed, world_from_box)
-        if is_clear_of(placed.triangles_world(), [one.triangles for one in book], 0.0002):
+        if is_clear_of(placed.triangles_world(), [one.triangles for one in book], GROUND_GAP_M):
             return placed, book
     raise RuntimeError(
         f"no {category} box whose boards keep clear of each other in {TRIES} draws; a fault of the kinds' sizes"
@@ -58,11 +67,26 @@ def _tilt(rng: Rng, box: OpenBox) -> tuple[Array, list[Body]]:
     """The box turned about the lower edge of one of its long sides, a book under the other."""
     angle_rad = float(np.radians(rng.uniform(2.5, 7.0)))
     pivot = -(box.width_m + box.board_m) / 2 * np.cos(box.rack_rad)
-    world_from_box = translation([0, 0, 0.0002]) @ rotation([1, 0, 0], angle_rad) @ translation([0, -pivot, 0])
+    world_from_box = translation([0, 0, GROUND_GAP_M]) @ rotation([1, 0, 0], angle_rad) @ translation([0, -pivot, 0])
     under_m = rng.uniform(0.6, 0.9) * box.width_m
     size = (rng.uniform(0.6, 1.1) * box.length_m, 0.25, under_m * np.sin(angle_rad) - 0.0005)
     place_book = translation([rng.normal(0, 0.02), under_m * np.cos(angle_rad) + size[1] / 2, 0])
     return world_from_box, [Body(apply(place_book, cuboid(size)), (120, 60, 60))]
+
+
+def _lie(rng: Rng, box: OpenBox) -> tuple[OpenBox, Array]:
+    """The box on one of its sides, which is flat then."""
+    k = int(rng.integers(4))
+    first, second, third, fourth = (0.0 if side == k else bulge for side, bulge in enumerate(box.bulges_m))
+    start, end = outline(box, box.board_m / 2)[[k, (k + 1) % 4]]
+    edge = np.append(end - start, 0.0) / np.linalg.norm(end - start)
+    # Outwards of the side, and down once the box has turned about the side's lower edge.
+    out = np.cross(edge, [0.0, 0.0, 1.0])
+    turn = rotation(np.cross(out, [0.0, 0.0, -1.0]), np.pi / 2)
+    lift = translation([0, 0, GROUND_GAP_M]) @ turn @ translation(-np.append(start, 0.0))
+    middle = apply(lift, np.array([0.0, 0.0, box.height_m / 2]))
+    laid = msgspec.structs.replace(box, bulges_m=(first, second, third, fourth))
+    return laid, translation([-middle[0], -middle[1], 0]) @ lift
 
 
 def _footprint(placed: PlacedBox, book: list[Body]) -> Array:
@@ -149,6 +173,8 @@ def _around(rng: Rng) -> Array:
 def _inside(rng: Rng, placed: PlacedBox, thing: Array) -> Array | None:
     """On the box's base, if the thing's circle fits between the sides."""
     box = placed.box
+    if box.is_closed or placed.world_from_box[2, 2] < STANDS_COS:
+        return None
     radius = float(np.linalg.norm(thing[..., :2], axis=-1).max())
     room = np.array([box.length_m, box.width_m]) / 2 - box.board_m - radius - 0.02
     if (room < 0).any() or thing[..., 2].max() > box.height_m + 0.15:

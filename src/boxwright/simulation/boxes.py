@@ -1,4 +1,4 @@
-"""An open box as a frozen description. Metres and radians; angles by the joint convention of docs/formats.md."""
+"""A box as a frozen description. Metres and radians; angles by the joint convention of docs/formats.md."""
 
 from __future__ import annotations
 
@@ -49,3 +49,5 @@ class OpenBox(msgspec.Struct, frozen=True):
     bulges_m: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     """How far the middle of each side stands out."""
     color: Rgb = (196, 150, 98)
+    is_closed: bool = False
+    """With a top between its sides, flush with their rims, instead of flaps: height is to its upper face."""

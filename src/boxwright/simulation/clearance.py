@@ -41,7 +41,7 @@ def crossing_panels(panels: list[Panel]) -> list[tuple[Panel, Panel]]:
 
 
 def _are_folded(a: Panel, b: Panel) -> bool:
-    body = ("base", "side0", "side1", "side2", "side3")
+    body = ("base", "side0", "side1", "side2", "side3", "top")
     return (a.name in body and b.name in body) or a.name == b.parent or b.name == a.parent
 
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from boxwright.simulation.arrangement import arrange_boxes, arrange_clutter, arrange_things
 from boxwright.simulation.conditions import DRAWN, Conditions
 from boxwright.simulation.empty import draw_decoys
 from boxwright.simulation.kinds import FURTHER_KINDS, KINDS
 from boxwright.simulation.scene import Body, PlacedBox, Scene
-from boxwright.simulation.surroundings import draw_support, draw_walls
-from boxwright.simulation.views import draw_view
+from boxwright.simulation.states import LYING
+from boxwright.simulation.surroundings import draw_support, draw_walls, is_before
+from boxwright.simulation.views import draw_view, position_in_world
 from boxwright.types import Camera
 
 CATEGORIES = tuple(KINDS)
@@ -42,10 +44,16 @@ def draw_scene(
     )
     extent_m = 2 * float(np.abs(content[:, :2]).max()) + 0.1
     support = draw_support(rng, extent_m)
-    camera_from_world, heading = draw_view(rng, category, content, camera, conditions)
+    opens_towards_rad = _heading(placed[0].world_from_box[:3, 2]) if category == LYING else None
+    camera_from_world, heading = draw_view(rng, category, content, camera, conditions, opens_towards_rad)
     walls = draw_walls(rng, support, heading, extent_m / 2 + float(rng.uniform(0.15, 1.2)))
+    walls = [wall for wall in walls if is_before(position_in_world(camera_from_world), wall)]
     things = _things(rng, placed, bodies + walls, support.reach_m, conditions) if clutter else []
     return Scene(category, tuple(placed), (*support.bodies, *bodies, *walls, *things), camera_from_world)
+
+
+def _heading(direction: NDArray[np.float64]) -> float:
+    return float(np.arctan2(direction[1], direction[0]))
 
 
 def _things(

@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 
 from boxwright.simulation.boxes import Flap, OpenBox, Rgb, Tuck
-from boxwright.simulation.states import part_shut, set_up
+from boxwright.simulation.states import LYING, part_shut, set_up
 
 Rng = np.random.Generator
 Draw = Callable[[Rng, str, str], OpenBox]
@@ -253,6 +253,18 @@ def closing(rng: Rng, category: str, variant: str) -> OpenBox:
     return _as(part_shut(rng, _with_flaps(rng, tuple(KINDS))), category, variant)
 
 
+def on_its_side(rng: Rng, category: str, variant: str) -> OpenBox:
+    """A box that somebody laid down: any but the flat ones."""
+    categories = ("small", "medium", "large", "carton", "cake")
+    return _as(draw_box(rng, categories[int(rng.integers(len(categories)))]), category, variant)
+
+
+def sealed(rng: Rng, category: str, variant: str) -> OpenBox:
+    """A box of any of the six, closed."""
+    box = draw_box(rng, list(KINDS)[int(rng.integers(len(KINDS)))])
+    return _as(msgspec.structs.replace(box, flaps=(None, None, None, None), is_closed=True), category, variant)
+
+
 def _with_flaps(rng: Rng, categories: tuple[str, ...]) -> OpenBox:
     """A box of any of these categories that has a flap."""
     while True:
@@ -269,6 +281,8 @@ FURTHER_KINDS: dict[str, dict[str, Draw]] = {
     "tote": {"bin": half_slotted, "lipped": lipped},
     "upright": {"set_up": upright},
     "part_shut": {"closing": closing},
+    LYING: {"on_its_side": on_its_side},
+    "closed": {"sealed": sealed},
 }
 """Drawn only where their category is named: the six above go round in sets whose frames stay what they were."""
 RARE = {"half_slotted": 0.4, "plain_lid": 0.5}

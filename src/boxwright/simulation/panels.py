@@ -33,6 +33,8 @@ class Panel(msgspec.Struct, frozen=True, eq=False):
 def build_panels(box: OpenBox) -> list[Panel]:
     """Base, sides, flaps, then flaps on flaps; only those that exist."""
     panels = [_base(box), *(_side(box, k) for k in range(4))]
+    if box.is_closed:
+        panels.append(_top(box))
     for k, flap in enumerate(box.flaps):
         if flap is not None:
             panels += _flap_and_tuck(box, k, flap)
@@ -57,10 +59,18 @@ def _at(plan: Array, z: float) -> Array:
 
 
 def _base(box: OpenBox) -> Panel:
+    return _between_sides(box, "base", 0.0)
+
+
+def _top(box: OpenBox) -> Panel:
+    return _between_sides(box, "top", box.height_m - box.board_m)
+
+
+def _between_sides(box: OpenBox, name: str, under_m: float) -> Panel:
     inner = outline(box, -box.board_m / 2 - BASE_GAP_M)
-    grid = _at(inner[[0, 1, 3, 2]].reshape(2, 2, 2), 0.0)
+    grid = _at(inner[[0, 1, 3, 2]].reshape(2, 2, 2), under_m)
     triangles = shell(grid, grid + box.board_m * UP)
-    return Panel("base", None, None, _at(outline(box), box.board_m / 2), triangles)
+    return Panel(name, None, None, _at(outline(box), under_m + box.board_m / 2), triangles)
 
 
 def _side(box: OpenBox, k: int) -> Panel:

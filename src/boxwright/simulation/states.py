@@ -9,6 +9,8 @@ from boxwright.simulation.boxes import Flap, OpenBox
 
 Rng = np.random.Generator
 
+LYING = "lying"
+"""The category of boxes that do not stand on their base."""
 SLOTS_M = (0.0015, 0.006)
 """From a corner to the end of a flap that stands up: half a slot."""
 UNDER_M = 0.004

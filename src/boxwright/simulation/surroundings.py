@@ -61,6 +61,13 @@ def draw_walls(rng: Rng, support: Surroundings, away: float, distance_m: float) 
     return [Body(_wall(heading, distance_m, floor_z), (shade, shade, shade)) for heading in headings]
 
 
+def is_before(place_m: Array, wall: Body) -> bool:
+    """Is a place on the side of a wall on which the world's origin is: does a camera there see the scene?"""
+    corner, second, third = wall.triangles[0]
+    normal = np.cross(second - corner, third - corner)
+    return bool(normal @ (place_m - corner) * (normal @ -corner) > 0)
+
+
 def _wall(heading: float, distance_m: float, floor_z: float) -> Array:
     upright = rotation([0, 1, 0], np.pi / 2)
     pose = standing(distance_m * np.cos(heading), distance_m * np.sin(heading), heading, floor_z + 2.0)

@@ -18,10 +18,14 @@ DISTANCES_M = {
     "pizza": (0.85, 1.6),
     "upright": (0.75, 1.6),
     "part_shut": (0.75, 1.6),
+    "lying": (0.75, 1.6),
+    "closed": (0.75, 1.8),
     "none": (0.8, 1.8),
 }
 FAR_M = (1.1, 1.8)
 """For the larger boxes."""
+ASIDE_RAD = float(np.radians(75.0))
+"""From the heading towards which a lying box opens."""
 FARTHEST_M = 2.3
 """Beyond this, what does not fit in the frame is cut by it."""
 
@@ -42,14 +46,22 @@ def look_at(target_m: Array, azimuth_rad: float, elevation_rad: float, distance_
 
 
 def draw_view(
-    rng: Rng, category: str, content: Array, camera: Camera, conditions: Conditions = DRAWN
+    rng: Rng,
+    category: str,
+    content: Array,
+    camera: Camera,
+    conditions: Conditions = DRAWN,
+    opens_towards_rad: float | None = None,
 ) -> tuple[Array, float]:
     """camera_from_world, and the heading (rad, world) in which it looks; `content` (N, 3) should be in the frame.
 
     Elevations 20-90 degrees; one frame in eleven looks straight down, at any roll; one in twelve is cut by its edge.
+    A box that opens towards a heading is looked at from there: from behind, lying boxes look like closed ones.
     What `conditions` set replaces what was drawn; a set distance is not made longer so that all fits.
     """
     azimuth = rng.uniform(0, 2 * np.pi)
+    if opens_towards_rad is not None:
+        azimuth = opens_towards_rad + rng.uniform(-ASIDE_RAD, ASIDE_RAD)
     is_down = rng.random() < 0.09
     elevation = np.radians(rng.uniform(84, 90) if is_down else 20 + 65 * rng.beta(1.2, 1.8))
     roll = rng.uniform(0, 2 * np.pi) if is_down else np.radians(rng.normal(0, 2.0))
