@@ -22,6 +22,8 @@ OVER_THE_RIM = (1128, 45)
 """A box out of square: flaps reach over the rim's corners, and pass their neighbours only where ends give way."""
 OVER_OTHERS = (1129, 9, "flap_3")
 """A lid over flaps so short that fingers on it, closed, would be too near to them; wide searches find the way."""
+ON_STACKS = {(1130, 1): "flap_0", (2013, 0): "flap_2"}
+"""Flaps that come to lie on others that overlap, and spring back beyond what counts as closed by itself."""
 IN_TWO = (2011, 31, "flap_1")
 """A flap that no push from the start closes."""
 
@@ -89,3 +91,15 @@ def test_where_the_arm_finds_no_way_to_a_flap_the_others_are_planned_as_it_stand
         without = plan_closing(model, ROBOT, np.eye(4), only=others, settings=settings)
         assert plan.segments, f"problem {number}"
         assert plan.segments == without.segments, f"problem {number}"
+
+
+def test_flaps_on_stacks_are_taken_to_rest_where_physics_leaves_them() -> None:
+    for (seed, number), name in ON_STACKS.items():
+        plan = _plan(seed, number, "ordinary")
+        run = simulate(plan, draw_problem(number, seed).model, crease="ordinary").simulation
+        told_rad, left_rad = plan.flaps[name].rest_rad, run.flaps[name].after_rad
+        assert told_rad is not None, f"problem {number}"
+        assert left_rad is not None, f"problem {number}"
+        assert told_rad > np.radians(20.0), f"problem {number}"
+        assert abs(told_rad - left_rad) < np.radians(5.0), f"problem {number}"
+        assert run.flaps[name].held, f"problem {number}"

@@ -130,7 +130,7 @@ impl<G: Guard> Closer<'_, G> {
             flap,
             moment: moment.clone(),
             hold_rad,
-            rest_rad: self.load.folds[flap].rest_rad(hold_rad).min(self.settings.closed_rad),
+            rest_rad: self.load.folds[flap].rest_rad(hold_rad).min(self.settings.lying_rad),
         }
     }
 
