@@ -21,10 +21,17 @@ ROUNDING_M = 1e-6
 OVER_THE_RIM = (1128, 45)
 """A box out of square: flaps reach over the rim's corners, and pass their neighbours only where ends give way."""
 OVER_OTHERS = (1129, 9, "flap_3")
-"""A lid that comes to lie on flaps so short that fingers on it, closed, would be too near to them."""
+"""A lid over flaps so short that fingers on it, closed, would be too near to them; wide searches find the way."""
+ON_STACKS = {(1130, 1): "flap_0", (2013, 0): "flap_2"}
+"""Flaps that come to lie on others that overlap, and spring back beyond what counts as closed by itself."""
 IN_TWO = (2011, 31, "flap_1")
 """A flap that no push from the start closes."""
 
+STRANDED = {1: 1, 7: 2, 13: 2, 25: 2}
+"""By number: boxes of seed 2013, and to how many flaps an arm that knows straight lines alone finds no way."""
+
+STRAIGHT_ALONE = {"transit_tries": 0, "shortcuts": 0}
+WIDE = {"beams": [16, 50, 60]}
 PUSHED_HOME = {"least_lay_rad": 9.0}
 AT_ONE_GO = {"fork": {"most_stages": 1}}
 
@@ -54,8 +61,8 @@ def test_flaps_that_reach_over_the_rim_pass_their_neighbours() -> None:
 
 def test_a_lid_over_short_flaps_is_let_go_where_it_comes_to_rest_closed() -> None:
     seed, number, name = OVER_OTHERS
-    plan = _plan(seed, number, "pre_broken")
-    assert _plan(seed, number, "pre_broken", PUSHED_HOME).flaps[name].status == "blocked"
+    plan = _plan(seed, number, "pre_broken", WIDE)
+    assert _plan(seed, number, "pre_broken", WIDE | PUSHED_HOME).flaps[name].status == "blocked"
     last = [segment for segment in plan.segments if segment.kind == "push" and segment.flap == name][-1]
     assert last.hinge_angle_rad is not None
     assert np.radians(2.0) < last.hinge_angle_rad[-1] < np.radians(12.0)
@@ -72,3 +79,27 @@ def test_a_second_push_closes_what_the_first_leaves_half_way() -> None:
     assert [segment.gripper_opening_m for segment in pushes] == [0.0, 0.0]
     assert _keeps_clear(seed, number, plan)
     assert _all_held(seed, number, "pre_broken", plan)
+
+
+def test_where_the_arm_finds_no_way_to_a_flap_the_others_are_planned_as_it_stands() -> None:
+    for number, count in STRANDED.items():
+        plan = _plan(2013, number, "ordinary", STRAIGHT_ALONE)
+        stranded = [name for name, flap in plan.flaps.items() if flap.reason == "no way was found to it"]
+        assert len(stranded) == count, f"problem {number}"
+        others = [name for name, flap in plan.flaps.items() if name not in stranded]
+        model, settings = draw_problem(number, 2013).model, {**told("ordinary"), **STRAIGHT_ALONE}
+        without = plan_closing(model, ROBOT, np.eye(4), only=others, settings=settings)
+        assert plan.segments, f"problem {number}"
+        assert plan.segments == without.segments, f"problem {number}"
+
+
+def test_flaps_on_stacks_are_taken_to_rest_where_physics_leaves_them() -> None:
+    for (seed, number), name in ON_STACKS.items():
+        plan = _plan(seed, number, "ordinary")
+        run = simulate(plan, draw_problem(number, seed).model, crease="ordinary").simulation
+        told_rad, left_rad = plan.flaps[name].rest_rad, run.flaps[name].after_rad
+        assert told_rad is not None, f"problem {number}"
+        assert left_rad is not None, f"problem {number}"
+        assert told_rad > np.radians(20.0), f"problem {number}"
+        assert abs(told_rad - left_rad) < np.radians(5.0), f"problem {number}"
+        assert run.flaps[name].held, f"problem {number}"

@@ -94,7 +94,10 @@ impl Answer {
         for (name, obstacle) in left_open {
             if let Some(flap) = self.flaps.iter_mut().find(|flap| flap.name == *name) {
                 flap.status = Status::Blocked.name();
-                flap.reason = Some(format!("between two postures: {obstacle}"));
+                flap.reason = Some(match obstacle {
+                    Obstacle::NoWay { .. } => obstacle.to_string(),
+                    _ => format!("between two postures: {obstacle}"),
+                });
             }
         }
     }

@@ -46,6 +46,8 @@ pub struct Closing {
     /// In the problem's order.
     pub outcomes: Vec<Outcome>,
     pub pieces: Vec<Piece>,
+    /// The first flap whose push was planned but to which the arm found no way: those after it were planned as if it had closed.
+    pub stranded: Option<usize>,
 }
 
 /// Everything that stays the same while a box is closed.
@@ -88,10 +90,14 @@ impl<G: Guard> Closer<'_, G> {
             order: Vec::new(),
             pieces: Vec::new(),
         };
+        let mut stranded = None;
         for (flap, push) in ordered.order.into_iter().zip(ordered.pushes) {
             outcomes[flap] = Some(match way.close(flap, push) {
                 Ok(rest_rad) => Outcome { rest_rad: Some(rest_rad), ..Outcome::new(Status::Planned, String::new()) },
-                Err(why) => why.outcome(),
+                Err(why) => {
+                    stranded = stranded.or(Some(flap));
+                    why.outcome()
+                }
             });
         }
         way.home(start);
@@ -105,6 +111,7 @@ impl<G: Guard> Closer<'_, G> {
             order: way.order,
             outcomes: outcomes.into_iter().map(|outcome| outcome.unwrap_or_else(unknown)).collect(),
             pieces: way.pieces,
+            stranded,
         }
     }
 

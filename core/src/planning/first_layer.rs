@@ -58,7 +58,7 @@ impl<G: Guard> Layers<'_, G> {
                 }
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
         found.into_iter().map(|(_, place, orientation)| (place, orientation)).collect()
     }
 }

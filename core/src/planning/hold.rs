@@ -56,9 +56,9 @@ impl<G: Guard> Closer<'_, G> {
         props.max_by(f64::total_cmp)
     }
 
-    /// Where a flap rests after a push.
+    /// Where a flap rests after a push: closed or not, it lies.
     pub fn rest_rad(&self, flap: usize, push: &PushMotion) -> f64 {
         let hold_rad = push.hinge_rad[push.hinge_rad.len() - 1];
-        self.load.folds[flap].rest_rad(hold_rad).min(self.settings.closed_rad)
+        self.load.folds[flap].rest_rad(hold_rad).min(self.settings.lying_rad)
     }
 }

@@ -74,9 +74,8 @@ pub struct Margins {
 impl Margins {
     /// Of so many flaps, none of them widened yet.
     pub fn new(settings: &PlanningSettings, flaps: usize) -> Self {
-        let times = (2..=WIDER + 1).map(f64::from);
         Self {
-            wider: times.map(|times| widened(settings, times)).collect(),
+            wider: (1..=WIDER).map(|times| widened(settings, f64::from(times))).collect(),
             widened: vec![0; flaps],
             known: Known::default(),
         }
@@ -103,9 +102,9 @@ impl Margins {
 /// Settings with wider margins for what lies between postures, and postures closer together where the finger touches.
 fn widened(settings: &PlanningSettings, times: f64) -> PlanningSettings {
     PlanningSettings {
-        search_margin_m: settings.search_margin_m * times,
-        sample_rad: settings.sample_rad / times,
-        touch_gap_m: settings.touch_gap_m * times,
+        search_margin_m: settings.search_margin_m + settings.wider_m * times,
+        sample_rad: settings.sample_rad / (times + 1.0),
+        touch_gap_m: settings.touch_gap_m * (times + 1.0),
         ..settings.clone()
     }
 }

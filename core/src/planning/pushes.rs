@@ -12,6 +12,9 @@ use super::reason::{Obstacle, WhyNot};
 use super::request::Method;
 use super::settings::PlanningSettings;
 
+/// A push that ends before this does not end for want of room beyond closed.
+const LATE_RAD: f64 = 0.8;
+
 impl<G: Guard> Closer<'_, G> {
     /// One flap's push while the others stand as they do.
     ///
@@ -49,7 +52,7 @@ impl<G: Guard> Closer<'_, G> {
         let short_rad = self.settings.short_on_others_rad;
         match pushed(hold_rad) {
             // Arms that cannot follow the flap beyond closed may still lay it down.
-            Err(why) if hold_rad < 0.0 && !why.at_start => {
+            Err(why) if hold_rad < 0.0 && why.at_rad.is_none_or(|at_rad| at_rad <= LATE_RAD) && !why.at_start => {
                 pushed(short_rad).or_else(|_| self.laid_short(flap, &why, &pushed)).map_err(|_| why)
             }
             Err(why) => self.laid_short(flap, &why, &pushed).map_err(|_| why),
@@ -127,7 +130,7 @@ impl<G: Guard> Closer<'_, G> {
             flap,
             moment: moment.clone(),
             hold_rad,
-            rest_rad: self.load.folds[flap].rest_rad(hold_rad).min(self.settings.closed_rad),
+            rest_rad: self.load.folds[flap].rest_rad(hold_rad).min(self.settings.lying_rad),
         }
     }
 

@@ -90,6 +90,7 @@ impl Request {
         guard.check_base()?;
         let mut margins = Margins::new(settings, problem.flaps.len());
         let mut left_open: Vec<(String, Obstacle)> = Vec::new();
+        // One more of a flap's margins is wider each time, or one more flap is left open: this ends.
         loop {
             let left: Vec<&str> = left_open.iter().map(|(name, _)| name.as_str()).collect();
             let closer = Closer {
@@ -103,13 +104,20 @@ impl Request {
                 only: &self.only,
                 left_open: &left,
             };
-            let mut answer = timed(&closer.plan(&arm.ready), arm, &problem, settings);
+            let closing = closer.plan(&arm.ready);
+            if let Some(flap) = closing.stranded {
+                // Another push may begin elsewhere; else what comes after it is planned as it stands, maybe in the way.
+                if !margins.widen(flap) {
+                    left_open.push((problem.flaps[flap].name.clone(), Obstacle::NoWay { to: "to it" }));
+                }
+                continue;
+            }
+            let mut answer = timed(&closing, arm, &problem, settings);
             let conflicts = answer.conflicts(arm, &guard, settings.check_s, settings.clearance_m);
             if conflicts.is_empty() {
                 answer.tell_left_open(&left_open);
                 return Ok(answer);
             }
-            // One more of a flap's margins is wider each time, or one more flap is left open: this ends.
             let mut seen = HashSet::new();
             for Conflict { flap: name, obstacle, .. } in conflicts {
                 let number = problem.flaps.iter().position(|flap| flap.name == name);

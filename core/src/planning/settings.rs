@@ -10,6 +10,8 @@ pub struct PlanningSettings {
     pub clearance_m: f64,
     /// By how much more is kept while searching, so that what lies between samples keeps the clearance too.
     pub search_margin_m: f64,
+    /// By how much more yet, each time that it did not.
+    pub wider_m: f64,
     /// A flap within this of 0 is closed.
     pub closed_rad: f64,
     /// A flap below this lies more than it stands: others come down on it, and it gives way.
@@ -163,8 +165,8 @@ impl Default for FineContacts {
             over_inset_m: -0.008,
             over_beyond_m: 0.006,
             least_lever: 0.2,
-            most_lean: 0.85,
-            least_hook_m: 0.010,
+            most_lean: 0.95,
+            least_hook_m: 0.006,
         }
     }
 }
@@ -194,7 +196,8 @@ impl Default for PlanningSettings {
     fn default() -> Self {
         Self {
             clearance_m: 0.005,
-            search_margin_m: 0.0015,
+            search_margin_m: 0.0005,
+            wider_m: 0.001,
             closed_rad: 15f64.to_radians(),
             lying_rad: 25f64.to_radians(),
             rest_aim_rad: 3f64.to_radians(),
@@ -212,7 +215,7 @@ impl Default for PlanningSettings {
             fork: ForkSettings::default(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
-            beams: vec![16, 100, 40],
+            beams: vec![16, 50, 40],
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,
