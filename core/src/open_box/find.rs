@@ -9,7 +9,7 @@ use super::grow::{grow, FoundBox, COARSE_M};
 use super::hanging::{scan_flaps, COARSE_SCAN};
 use super::judgement::{probability, Judgement};
 use super::refused::{Refusal, Refused};
-use super::shells::{outer_m, overlap, shells, Shell};
+use super::shells::{lies, outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
 use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, FittedBody, KnownSize};
@@ -18,6 +18,8 @@ use crate::perception::Scene;
 
 /// Of proposals that lie upon each other so many are fitted.
 const RIVALS_FITTED: usize = 8;
+/// The same of proposals of boxes on their side.
+const LYING_FITTED: usize = 4;
 /// How well a proposal's lengths are known.
 const PROPOSED_SIGMA_M: f64 = 0.01;
 
@@ -87,7 +89,10 @@ pub fn find(
 fn best_of_rivals(shells: &[Shell]) -> Vec<&Shell> {
     let mut out: Vec<&Shell> = Vec::new();
     for shell in shells {
-        if out.iter().filter(|other| overlap(&other.proposal, &shell.proposal)).count() < RIVALS_FITTED {
+        let is_lying = lies(&shell.proposal);
+        let rivals = out.iter().filter(|other| lies(&other.proposal) == is_lying);
+        let most = if is_lying { LYING_FITTED } else { RIVALS_FITTED };
+        if rivals.filter(|other| overlap(&other.proposal, &shell.proposal)).count() < most {
             out.push(shell);
         }
     }

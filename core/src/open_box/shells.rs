@@ -19,6 +19,7 @@ use crate::perception::Scene;
 /// Of proposals that lie upon each other, and of all, so many are kept.
 const RIVALS: usize = 40;
 const MOST_SHELLS: usize = 140;
+const MOST_LYING: usize = 60;
 
 /// A proposal with what the rays say of it.
 #[derive(Debug, Clone)]
@@ -49,13 +50,13 @@ pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
     let mut all: Vec<Shell> = of_one_direction.par_iter().flat_map_iter(look).collect();
     all.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut out: Vec<Shell> = Vec::new();
+    // What lies takes no place of what stands.
     for shell in all {
-        let rivals = out.iter().filter(|other| overlap(&other.proposal, &shell.proposal)).count();
-        if rivals < RIVALS && !out.iter().any(|other| alike(&other.proposal, &shell.proposal)) {
+        let of_its_kind = || out.iter().filter(|other| lies(&other.proposal) == lies(&shell.proposal));
+        let rivals = of_its_kind().filter(|other| overlap(&other.proposal, &shell.proposal)).count();
+        let is_new = rivals < RIVALS && !of_its_kind().any(|other| alike(&other.proposal, &shell.proposal));
+        if is_new && of_its_kind().count() < if lies(&shell.proposal) { MOST_LYING } else { MOST_SHELLS } {
             out.push(shell);
-        }
-        if out.len() >= MOST_SHELLS {
-            break;
         }
     }
     out
@@ -110,6 +111,11 @@ fn alike(a: &Proposal, b: &Proposal) -> bool {
     let same_axes = a.axes[0].dot(&b.axes[0]) > 0.998 && a.up.dot(&b.up) > 0.9993;
     let near = |x: &[f64; 2], y: &[f64; 2]| (x[0] - y[0]).abs() < ALIKE_M && (x[1] - y[1]).abs() < ALIKE_M;
     same_axes && near(&a.spans[0], &b.spans[0]) && near(&a.spans[1], &b.spans[1]) && near(&a.heights, &b.heights)
+}
+
+/// Whether it is one of a box on its side.
+pub fn lies(proposal: &Proposal) -> bool {
+    proposal.up.z < ALIKE_UP_COS
 }
 
 /// Whether one's middle lies in the other.
