@@ -27,6 +27,9 @@ def test_a_closed_carton_is_measured_and_nothing_of_it_turns(index: int) -> None
     assert box.dims is not None
     near = [one for one in found if one.dimensions and np.abs(np.sort(one.dimensions) - np.sort(box.dims)).max() < 0.01]
     (one,) = near
+    assert one.dimensions is not None
+    # Side 0 is a longer one (docs/formats.md).
+    assert one.dimensions[0] > one.dimensions[1] - 0.01
     assert one.joints == ()
     assert one.probability is None
     seen = {part.name for part in one.parts if part.observed}
@@ -55,6 +58,7 @@ def test_who_cannot_tell_closed_boxes_says_so() -> None:
         with pytest.raises(ValueError, match=r"closed_carton.*fitted"):
             boxwright.infer(cloud, method=method, templates=("closed_carton",))
     points = cloud.points[np.isfinite(cloud.points).all(axis=1)]
-    inferred = boxwright.infer(Cloud(points=points, width=len(points), height=1, viewpoint=(0.0, 0.0, 0.0)), templates=("carton", "closed_carton"))
+    loose = Cloud(points=points, width=len(points), height=1, viewpoint=(0.0, 0.0, 0.0))
+    inferred = boxwright.infer(loose, templates=("carton", "closed_carton"))
     assert closed_of(inferred.model.objects) == []
     assert any("closed boxes were not looked for" in line for line in inferred.model.warnings)

@@ -7,6 +7,7 @@ import pytest
 
 import boxwright
 from boxwright.evaluation import score_frame
+from boxwright.planning.checks import refuse_poses
 from boxwright.simulation.frames import make_frame
 from boxwright.simulation.physics import cloud_of
 from boxwright.types.model import Object
@@ -171,5 +172,7 @@ def test_boxes_on_their_side_are_found_and_measured(index: int) -> None:
     assert abs(true[2] - found.dimensions[2]) < 0.012
     score = score_frame(inferred.model.objects, inferred.object_labels, inferred.part_labels, frame.truth, frame.labels)
     (box,) = score.boxes
+    with pytest.raises(ValueError, match="lies on a side"):
+        refuse_poses(inferred.model, found, np.eye(4))
     assert box.flaps_right == box.flaps_in_cloud
     assert box.flaps_wrong == 0

@@ -13,7 +13,7 @@ use super::sight::Sight;
 use super::start::body_of;
 use super::sure::drop_unsure;
 use super::yaw::yaws;
-use crate::fit::{layout, FitSettings, FittedBody, Role};
+use crate::fit::{canonical_turn, layout, FitSettings, FittedBody, Role};
 use crate::geometry::Vec3;
 use crate::perception::Scene;
 
@@ -85,8 +85,10 @@ fn scored_proposals(sight: &Sight, scene: &Scene) -> Vec<(f64, Proposal)> {
 /// Fitted as a box whose flap 0, shut, is as large as the opening; `None` of what is no such box.
 fn closed(sight: &Sight, proposal: &Proposal, settings: &FitSettings) -> Option<FoundBox> {
     let few = competing(settings);
-    let labels = label(sight, &with_top(&body_of(proposal)), &PRESENT, COARSE_M, COARSE_STRIDE);
-    let body = refit(sight, &with_top(&body_of(proposal)), &PRESENT, &labels, &few).ok()?.body;
+    let body = with_top(&body_of(proposal));
+    let labels = label(sight, &body, &PRESENT, COARSE_M, COARSE_STRIDE);
+    let body = refit(sight, &body, &PRESENT, &labels, &few).ok()?.body;
+    let body = body.turned(canonical_turn(&body, Some(sight.eye)));
     let labels = label(sight, &with_top(&body), &PRESENT, FINE_M, 1);
     let solution = refit(sight, &with_top(&body), &PRESENT, &labels, settings).ok()?;
     sound(&solution.body).ok()?;

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from boxwright.kinematics.transforms import Matrix, apply
+from boxwright.kinematics.transforms import Matrix, apply, from_pose
 from boxwright.types import Model, Object
 
 LEVEL_DEG = 5.0
 """A support that leans more against the robot's z than this is told of: the pose may be wrong."""
+
+LIES_COS = 0.7
+"""A box whose opening looks further off up lies: no plan reckons with how its flaps fall then."""
 
 TOO_FAR_M = 3.0
 """No arm that this is for reaches farther."""
@@ -18,9 +21,16 @@ BELOW_FLOOR_M = 0.02
 
 
 def refuse_poses(model: Model, model_object: Object, base_from_input: Matrix) -> None:
-    """Raises ValueError where the box lies upside down, below its floor, or out of any arm's reach."""
+    """Raises ValueError where the box lies on a side or upside down, below its floor, or out of any arm's reach."""
     corners = np.concatenate([np.array(part.corners) for part in model_object.parts if part.corners is not None])
     corners_base = apply(base_from_input, corners)
+    if model_object.pose is not None:
+        opens = float(from_pose(model_object.pose)[:3, 2] @ np.array(model.up))
+        if opens < LIES_COS:
+            raise ValueError(
+                f"object ({model_object.template}) lies on a side: its opening looks "
+                f"{np.degrees(np.arccos(opens)):.0f} degrees off up; stand it up first"
+            )
     up = base_from_input[:3, :3] @ np.array(model.up)
     if up[2] < 0.0:
         raise ValueError(
