@@ -62,3 +62,4 @@ def test_who_cannot_tell_closed_boxes_says_so() -> None:
     inferred = boxwright.infer(loose, templates=("carton", "closed_carton"))
     assert closed_of(inferred.model.objects) == []
     assert any("closed boxes were not looked for" in line for line in inferred.model.warnings)
+    assert boxwright.infer(loose, templates=("closed_carton",)).model.objects == ()

@@ -74,9 +74,9 @@ pub fn open_boxes<'a>(templates: &'a [&Template]) -> impl Iterator<Item = usize>
     (0..templates.len()).filter(|&number| matches!(templates[number].body, Body::OpenBox(_)))
 }
 
-/// Number of the first template whose body is a closed box.
-pub fn closed_box(templates: &[&Template]) -> Option<usize> {
-    templates.iter().position(|template| matches!(template.body, Body::ClosedBox(_)))
+/// Numbers of the templates whose body is a closed box.
+pub fn closed_boxes<'a>(templates: &'a [&Template]) -> impl Iterator<Item = usize> + 'a {
+    (0..templates.len()).filter(|&number| matches!(templates[number].body, Body::ClosedBox(_)))
 }
 
 fn aligned(template: &str, named: &BTreeMap<String, f64>) -> Result<[f64; SHAPE_FEATURES.len()]> {

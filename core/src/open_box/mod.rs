@@ -56,7 +56,7 @@ pub use features::Features;
 pub use find::{find, Found};
 pub use grow::FoundBox;
 pub use judgement::Judgement;
-pub use kind::{closed_box, open_boxes, Kinds};
+pub use kind::{closed_boxes, open_boxes, Kinds};
 pub use recast::recast;
 pub use refused::{Refusal, Refused};
 pub use shape::{Shape, SHAPE_FEATURES};

@@ -11,7 +11,7 @@ use super::rims::{self, OnRims};
 use super::shell::{Rays, ShellLook};
 use super::sight::Sight;
 use super::start::body_of;
-use super::upright::{lying_frames, ways_up};
+use super::upright::{is_lying, lying_frames, ways_up};
 use super::yaw::{near, yaws};
 use crate::geometry::Vec3;
 use crate::perception::Scene;
@@ -105,6 +105,7 @@ fn all_proposals(patches: &[Patch], edges: &[Vec3], eye: &Vec3) -> Vec<Proposal>
 /// So many pixels for a box more than against it.
 pub const LEAST_SCORE: f64 = 300.0;
 const ALIKE_M: f64 = 0.009;
+/// What stands on one support has ways up nearer than this.
 const ALIKE_UP_COS: f64 = 0.7;
 
 fn alike(a: &Proposal, b: &Proposal) -> bool {
@@ -115,7 +116,7 @@ fn alike(a: &Proposal, b: &Proposal) -> bool {
 
 /// Whether it is one of a box on its side.
 pub fn lies(proposal: &Proposal) -> bool {
-    proposal.up.z < ALIKE_UP_COS
+    is_lying(&proposal.up)
 }
 
 /// Whether one's middle lies in the other.

@@ -74,7 +74,12 @@ pub fn lying_frames(patches: &[Patch], yaws: &[f64], eye: &Vec3) -> Vec<[Vec3; 3
 
 /// Whether a body lies on one of its sides.
 pub fn lies(body: &FittedBody) -> bool {
-    (body.input_from_object.rotation * Vec3::z()).z < LIES_COS
+    is_lying(&(body.input_from_object.rotation * Vec3::z()))
+}
+
+/// Whether what has this way up lies on a side.
+pub fn is_lying(up: &Vec3) -> bool {
+    up.z < LIES_COS
 }
 
 /// What leans further lies.

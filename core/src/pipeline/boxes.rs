@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::fit::{FitSettings, KnownSize};
 use crate::inference::ObjectModel;
 use crate::model::Template;
-use crate::open_box::{self, closed_box, find_closed, open_boxes, Assignments, Found, FoundBox, Judgement};
+use crate::open_box::{self, closed_boxes, find_closed, open_boxes, Assignments, Found, FoundBox, Judgement};
 use crate::open_box::{Kinds, PartReadings, Refusal, Refused, Shape, Sight};
 use crate::perception::readings::Readings;
 use crate::perception::Scene;
@@ -40,7 +40,7 @@ pub fn whole_boxes(
 ) -> Result<Option<Answer>> {
     let start = Instant::now();
     let templates: Vec<&Template> = models.iter().map(|model| &model.template).collect();
-    let (has_open, closed) = (open_boxes(&templates).next().is_some(), closed_box(&templates));
+    let (has_open, closed) = (open_boxes(&templates).next().is_some(), closed_boxes(&templates).next());
     if !has_open && closed.is_none() {
         return Ok(None);
     }
@@ -58,6 +58,9 @@ pub fn whole_boxes(
     let mut answer = tell_boxes(&found.boxes, &found.refused, &sights, &telling);
     if let Some(number) = closed {
         tell_closed(&mut answer, scene, &sights, templates[number], &telling);
+        let others = closed_boxes(&templates).skip(1).map(|other| &templates[other].name);
+        let name = &templates[number].name;
+        answer.warnings.extend(others.map(|other| format!("{other} was not used: closed boxes are told as {name}")));
     }
     if answer.objects.is_empty() && answer.refused.is_empty() {
         answer.refused.push(NOTHING_HELD.to_owned());

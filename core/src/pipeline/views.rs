@@ -11,7 +11,7 @@ use crate::error::{InputError, Result};
 use crate::fit::{size_warnings, FitSettings, KnownSize};
 use crate::inference::ObjectModel;
 use crate::model::Template;
-use crate::open_box::{fuse, open_boxes, Assignments, Judgement, Kinds, View};
+use crate::open_box::{closed_boxes, fuse, open_boxes, Assignments, Judgement, Kinds, View};
 use crate::perception::readings::Readings;
 use crate::perception::{perceive, PerceptionSettings, Scene};
 
@@ -76,10 +76,15 @@ pub fn infer_views(
     let mut answer = tell_boxes(&fused.found, &fused.refused, &fused.sights, &telling);
     answer.refused.extend(fused.refused_by_frames);
     answer.warnings.extend(fused.warnings);
+    if closed_boxes(&templates).next().is_some() {
+        answer.warnings.push(NO_CLOSED.to_owned());
+    }
     answer.warnings.extend(size_warnings(&answer.objects, sizes));
     answer.stage_seconds.push(("boxes", start.elapsed().as_secs_f64()));
     Ok((scenes, answer))
 }
+
+const NO_CLOSED: &str = "closed boxes were not looked for: they are told frame by frame, without --poses";
 
 /// What is known of up, told in the view's own frame.
 fn turned(perception: &PerceptionSettings, view: &InputView) -> PerceptionSettings {
