@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 Rng = np.random.Generator
 
 FLOOR_SIZE_M = 12.0
+OFF_WALL_M = 0.2
+"""No sensor stands nearer to a wall: its projector is 75 mm to the left."""
 FLOOR_COLORS = ((150, 150, 150), (128, 104, 80), (176, 168, 158), (96, 100, 108))
 TABLE_COLORS = ((170, 140, 110), (205, 200, 195), (110, 84, 60))
 
@@ -62,10 +64,11 @@ def draw_walls(rng: Rng, support: Surroundings, away: float, distance_m: float) 
 
 
 def is_before(place_m: Array, wall: Body) -> bool:
-    """Is a place on the side of a wall on which the world's origin is: does a camera there see the scene?"""
+    """Is a place well on the side of a wall on which the world's origin is: do sensors there see the scene?"""
     corner, second, third = wall.triangles[0]
     normal = np.cross(second - corner, third - corner)
-    return bool(normal @ (place_m - corner) * (normal @ -corner) > 0)
+    inward = normal / np.linalg.norm(normal) * np.sign(normal @ -corner)
+    return bool(inward @ (place_m - corner) > OFF_WALL_M)
 
 
 def _wall(heading: float, distance_m: float, floor_z: float) -> Array:
