@@ -32,14 +32,25 @@ pub fn fill(
     object.outer_dimensions = Some([length + grown, width + grown, height]);
     object.thickness = Some(board);
     object.pose = Some(pose(body));
-    object.parameters = parameters(roles, seen, solution, settings);
+    let known = known(roles, seen);
+    object.parameters = parameters(roles, seen, &known, solution, settings);
     for &(part, role) in roles {
         let is_fixed = matches!(role, Role::Base | Role::Side(_));
         let answer = &mut object.parts[part];
         answer.observed = seen[part];
-        answer.corners = (seen[part] || is_fixed).then(|| corners(body, role).map(Into::into));
+        answer.corners = (known[part] || is_fixed).then(|| corners(body, role).map(Into::into));
     }
-    object.joints = joints(template, roles, seen, solution, settings);
+    object.joints = joints(template, roles, seen, &known, solution, settings);
+}
+
+/// Parts that were seen, and flaps whose tuck flaps were: they hang on something.
+fn known(roles: &[(usize, Role)], seen: &[bool]) -> Vec<bool> {
+    let mut out = seen.to_vec();
+    for &(part, role) in roles {
+        let Role::Flap(k) = role else { continue };
+        out[part] |= roles.iter().any(|&(other, role)| role == Role::Tuck(k) && seen[other]);
+    }
+    out
 }
 
 fn pose(body: &FittedBody) -> PoseAnswer {
@@ -47,15 +58,16 @@ fn pose(body: &FittedBody) -> PoseAnswer {
     PoseAnswer { position: body.input_from_object.translation.vector.into(), orientation: [q.i, q.j, q.k, q.w] }
 }
 
-/// Of the shape, and of the flaps and tuck flaps that were seen.
+/// Of the shape, and of the flaps and tuck flaps that are known.
 fn parameters(
     roles: &[(usize, Role)],
     seen: &[bool],
+    known: &[bool],
     solution: &Solution,
     settings: &FitSettings,
 ) -> BTreeMap<String, ParameterAnswer> {
     let mut names = shape_names();
-    for &(_, role) in roles.iter().filter(|(part, _)| seen[*part]) {
+    for &(_, role) in roles.iter().filter(|(part, _)| known[*part]) {
         match role {
             Role::Flap(k) => names.extend(flap_names(k)),
             Role::Tuck(k) => names.extend(tuck_names(k)),
@@ -86,15 +98,17 @@ fn joints(
     template: &Template,
     roles: &[(usize, Role)],
     seen: &[bool],
+    known: &[bool],
     solution: &Solution,
     settings: &FitSettings,
 ) -> Vec<JointAnswer> {
     let role_of = |part: usize| roles.iter().find(|(p, _)| *p == part).map(|(_, role)| *role);
     let of = |joint: &crate::model::Joint| {
-        let role = role_of(joint.child).filter(|_| seen[joint.child])?;
+        let role = role_of(joint.child).filter(|_| known[joint.child])?;
         let found = hinge(&solution.body, role)?;
         let child = &template.parts[joint.child].name;
-        let scale = if seen[joint.parent] { settings.seen_scale } else { settings.unseen_scale };
+        let is_seen = seen[joint.parent] && seen[joint.child];
+        let scale = if is_seen { settings.seen_scale } else { settings.unseen_scale };
         Some(JointAnswer {
             name: format!("{child}_hinge"),
             kind: "revolute",
@@ -137,6 +151,20 @@ fn hinge_sigma(solution: &Solution, role: Role, at: &FittedHinge, scale: SigmaSc
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_flap_is_known_by_its_tuck_flap() {
+        let roles = [(0, Role::Base), (1, Role::Flap(2)), (2, Role::Tuck(2)), (3, Role::Flap(3)), (4, Role::Tuck(3))];
+        let cases = [
+            ([false, false, true, false, false], [false, true, true, false, false]),
+            ([true, true, false, false, false], [true, true, false, false, false]),
+            ([false, true, true, false, true], [false, true, true, true, true]),
+            ([false; 5], [false; 5]),
+        ];
+        for (seen, expected) in cases {
+            assert_eq!(known(&roles, &seen), expected, "{seen:?}");
+        }
+    }
 
     #[test]
     fn a_length_is_bounded_by_the_walls_across_it() {

@@ -41,7 +41,7 @@ pub(crate) use known_size::{best_match, best_match_within, share_of_score, with_
 pub(crate) use layout::lean_name;
 pub(crate) use object::{canonical_turn, check};
 pub(crate) use other_view::{OtherView, PlaceSigma};
-pub(crate) use priors::{kept_length, priors, Prior};
+pub(crate) use priors::{kept_length, lid_length, lid_length_m, priors, Prior};
 pub(crate) use problem::{Problem, Support};
 pub(crate) use readings::{FaceReading, PartEnds, PartReadings, PartSegment};
 pub(crate) use sensor::Sensor;

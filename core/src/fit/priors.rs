@@ -26,6 +26,7 @@ const FLAP_LESS_THAN_SIDE_M: (f64, f64) = (-0.006, 0.01);
 const OFFSET_M: (f64, f64) = (0.0, 0.004);
 const TAPER_M: (f64, f64) = (0.0, 0.015);
 const TUCK_LESS_THAN_FLAP_M: (f64, f64) = (-0.01, 0.03);
+const LID_LESS_THAN_ACROSS_M: (f64, f64) = (-0.003, 0.003);
 /// About the start, for sizes and angles: so weak that any reading outweighs it.
 const SIZE_SIGMA_M: f64 = 0.2;
 const ANGLE_SIGMA_RAD: f64 = 1.0;
@@ -59,6 +60,16 @@ pub fn kept_length(start: &FittedBody, role: Role) -> Option<Prior> {
     Some(Prior::one(place, (start.get(place), KEPT_LENGTH_M)))
 }
 
+/// A flap on which a tuck flap hangs reaches across the box: else that would tuck in nowhere.
+pub fn lid_length(k: usize) -> Prior {
+    Prior::difference(flap(k) + FLAP_LENGTH, edge_place(k + 1), LID_LESS_THAN_ACROSS_M)
+}
+
+/// How long flap `k` is where it is a lid, metres.
+pub fn lid_length_m(body: &FittedBody, k: usize) -> f64 {
+    body.get(edge_place(k + 1)) + LID_LESS_THAN_ACROSS_M.0
+}
+
 /// All priors of a box that starts as `start`.
 pub fn priors(start: &FittedBody) -> Vec<Prior> {
     let size = |place: usize| Prior::one(place, (start.get(place), SIZE_SIGMA_M));
@@ -86,6 +97,23 @@ pub fn priors(start: &FittedBody) -> Vec<Prior> {
 mod tests {
     use super::*;
     use nalgebra::Isometry3;
+
+    #[test]
+    fn a_lid_reaches_across_its_box() {
+        let mut body = FittedBody { input_from_object: Isometry3::identity(), numbers: Parameters::zeros() };
+        (body.numbers[LENGTH], body.numbers[WIDTH]) = (0.4, 0.3);
+        let mut cases = 0;
+        for (k, across_m) in [0.3, 0.4, 0.3, 0.4].into_iter().enumerate() {
+            let lid_m = lid_length_m(&body, k);
+            assert!(lid_m < across_m && across_m - lid_m < 0.01, "{k}");
+            body.numbers[flap(k) + FLAP_LENGTH] = lid_m;
+            assert!(lid_length(k).residual(&body.numbers).0.abs() < 1e-9, "{k}");
+            body.numbers[flap(k) + FLAP_LENGTH] += LID_LESS_THAN_ACROSS_M.1;
+            assert!((lid_length(k).residual(&body.numbers).0 - 1.0).abs() < 1e-9, "{k}");
+            cases += 1;
+        }
+        assert_eq!(cases, 4);
+    }
 
     #[test]
     fn only_what_hangs_keeps_a_length_and_that_of_its_start() {

@@ -30,6 +30,10 @@ pub enum PartEnds<'a> {
 }
 
 impl PartEnds<'_> {
+    fn are_told(&self) -> bool {
+        !matches!(self, Self::Told([None, None, None, None]))
+    }
+
     /// Of the end that lies that way.
     fn kind(&self, end: usize, outward: &Vec3) -> Option<EdgeKind> {
         match self {
@@ -82,7 +86,9 @@ impl PartReadings {
             .map(|point| FaceReading { point, sigma_m: sensor.sigma_m(&point, &segment.normal, settings) })
             .collect();
         let information = (count as f64 / settings.readings_that_agree).min(settings.most_face_information);
-        let ends = (0..4).flat_map(|end| end_readings(segment, &panel, start, sensor, settings, end)).collect();
+        let told = if segment.ends.are_told() { segment.points } else { &[] };
+        let coordinates = Coordinates::new(told, panel.axes().map(|axis| start.input_from_object * axis), sensor);
+        let ends = (0..4).flat_map(|end| end_readings(segment, &coordinates, sensor, settings, end)).collect();
         Self { role: segment.role, face, faces, face_information: information / taken.max(1) as f64, ends }
     }
 }
@@ -101,23 +107,34 @@ const STRIP_PX: f64 = 3.0;
 const CORNER_SHARE: f64 = 0.06;
 const LEAST_READINGS_OF_STRIP: usize = 3;
 
+/// Readings of a part along the two directions in which it reaches: all of its ends ask for them.
+struct Coordinates {
+    axes: [Vec3; 2],
+    along: [Vec<f64>; 2],
+}
+
+impl Coordinates {
+    fn new(points: &[u32], axes: [Vec3; 2], sensor: &Sensor) -> Self {
+        Self { axes, along: axes.map(|axis| points.iter().map(|&index| sensor.point(index).dot(&axis)).collect()) }
+    }
+}
+
 fn end_readings(
     segment: &PartSegment,
-    panel: &Panel,
-    start: &FittedBody,
+    coordinates: &Coordinates,
     sensor: &Sensor,
     settings: &FitSettings,
     end: usize,
 ) -> Vec<EndReading> {
     let (bounded, sign) = outward_coordinate(segment.role, end);
-    let axes = panel.axes().map(|axis| start.input_from_object * axis);
-    let (outward, across) = (axes[bounded] * sign, axes[1 - bounded]);
+    let (outward, across) = (coordinates.axes[bounded] * sign, coordinates.axes[1 - bounded]);
     let Some(kind) = segment.ends.kind(end, &outward) else { return Vec::new() };
-    let strips = Strips::new(segment, &across, sensor, settings);
+    let strips = Strips::new(&coordinates.along[1 - bounded], sensor.pixel_m(&segment.center, &across), settings);
     let blur_m = if kind == EdgeKind::Crease { settings.crease_sigma_m } else { settings.edge_sigma_m };
-    let outermost = strips.outermost(segment.points, sensor, &across, &outward);
+    let outermost = strips.outermost(&coordinates.along[1 - bounded], &coordinates.along[bounded], sign);
     let information = (settings.most_end_information / outermost.len().max(1) as f64).min(1.0);
-    let reading = |point: Vec3| {
+    let reading = |number: usize| {
+        let point = sensor.point(segment.points[number]);
         let pixel_m = sensor.pixel_m(&point, &outward);
         EndReading {
             point,
@@ -149,32 +166,29 @@ struct Strips {
 }
 
 impl Strips {
-    fn new(segment: &PartSegment, across: &Vec3, sensor: &Sensor, settings: &FitSettings) -> Self {
-        let along = segment.points.iter().map(|&i| sensor.point(i).dot(across));
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
+    fn new(across: &[f64], pixel_m: f64, settings: &FitSettings) -> Self {
+        let (low, high) = across.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &c| (l.min(c), h.max(c)));
         let (low, high) = (low + CORNER_SHARE * (high - low), high - CORNER_SHARE * (high - low));
-        let pixel_m = sensor.pixel_m(&segment.center, across);
         let fit = ((high - low) / (STRIP_PX * pixel_m)) as usize;
         let count = fit.clamp(1, settings.end_strips);
         Self { low, width: (high - low) / count as f64, count }
     }
 
-    /// The reading of each strip that lies farthest along `outward`.
-    fn outermost(&self, points: &[u32], sensor: &Sensor, across: &Vec3, outward: &Vec3) -> Vec<Vec3> {
-        let mut found = vec![(f64::NEG_INFINITY, 0_u32, 0_usize); self.count];
-        for &index in points {
-            let point = sensor.point(index);
-            let strip = ((point.dot(across) - self.low) / self.width).floor();
+    /// The number of the reading of each strip that lies farthest along `sign` times `outward`.
+    fn outermost(&self, across: &[f64], outward: &[f64], sign: f64) -> Vec<usize> {
+        let mut found = vec![(f64::NEG_INFINITY, 0_usize, 0_usize); self.count];
+        for (number, (across, outward)) in across.iter().zip(outward).enumerate() {
+            let strip = ((across - self.low) / self.width).floor();
             if strip >= 0.0 && strip < self.count as f64 {
                 let (farthest, at, readings) = &mut found[strip as usize];
                 *readings += 1;
-                let out = point.dot(outward);
+                let out = sign * outward;
                 if out > *farthest {
-                    (*farthest, *at) = (out, index);
+                    (*farthest, *at) = (out, number);
                 }
             }
         }
         let enough = found.iter().filter(|(_, _, readings)| *readings >= LEAST_READINGS_OF_STRIP);
-        enough.map(|&(_, index, _)| sensor.point(index)).collect()
+        enough.map(|&(_, number, _)| number).collect()
     }
 }

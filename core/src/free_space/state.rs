@@ -20,6 +20,9 @@ pub struct PartState {
 }
 
 impl PartState {
+    /// Of a part that something else proves to be there.
+    pub const HIDDEN: Self = Self { seen: 0.0, hidden: 1.0, absent: 0.0 };
+
     /// From what the rays say (eq. 60).
     pub fn of(looked: &Looked) -> Self {
         let for_met = (MET_IF_THERE / MET_IF_ABSENT).ln();

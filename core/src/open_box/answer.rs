@@ -1,6 +1,7 @@
 use std::collections::BTreeMap;
 
-use super::grow::FoundBox;
+use super::edge_on::is_edge_on;
+use super::grow::{FoundBox, FINE_M};
 use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
 use super::sight::{reading_of, Sight};
@@ -43,9 +44,10 @@ pub fn answer(
     let mut solution = found.solution.clone();
     solution.body.input_from_object = input_from_level * solution.body.input_from_object;
     for k in 0..4 {
-        // A flap on a flap that was not seen hangs on nothing.
+        // A flap on a flap that was not seen hangs on nothing, but where that is seen from its edge.
         let (Some(flap), Some(tuck)) = (box_roles.flaps[k], box_roles.tucks[k]) else { continue };
-        if seen[tuck] && !seen[flap] {
+        let is_edge_on = || sights.iter().all(|sight| is_edge_on(sight, &found.solution.body, Role::Flap(k), FINE_M));
+        if seen[tuck] && !seen[flap] && !is_edge_on() {
             seen[tuck] = false;
             parts[tuck].points = 0;
             parts[tuck].probability = None;
@@ -93,7 +95,8 @@ pub fn answer(
         });
     }
     let unseen: Vec<Role> = roles.iter().filter(|(part, _)| !seen[*part]).map(|(_, role)| *role).collect();
-    for told in unseen_parts(found, sights, &unseen) {
+    let has_seen_tuck = box_roles.tucks.map(|tuck| tuck.is_some_and(|tuck| seen[tuck]));
+    for told in unseen_parts(found, sights, &unseen, has_seen_tuck) {
         let part = roles.iter().find(|(_, role)| *role == told.role).map(|(part, _)| *part)?;
         object.parts[part].state = Some(told.state);
         object.parts[part].seen_from = told.seen_from.map(|d| (input_from_level.rotation * d).into());

@@ -130,16 +130,16 @@ impl<'a> Sheet<'a> {
         (self.body.to_input(&point), (self.body.input_from_object.rotation * normal).normalize())
     }
 
-    /// Pixels with a reading on it, of the strip between two ways from the hinge.
-    pub fn met_between(&self, sight: &Sight, [from_m, to_m]: [f64; 2], model_m: f64) -> f64 {
+    /// Pixels of which the rays say that, of the strip between two ways from the hinge.
+    pub fn asked_between(&self, sight: &Sight, [from_m, to_m]: [f64; 2], model_m: f64, says: Says) -> f64 {
         let cell = self.width_m.max(0.0) * (to_m - from_m) * (1.0 - 2.0 * END_SHARE) / (ALONG * STRIP) as f64;
         let places = (0..ALONG * STRIP).map(|i| {
             let along = END_SHARE + (1.0 - 2.0 * END_SHARE) * ((i % ALONG) as f64 + 0.5) / ALONG as f64;
             let away = ((i / ALONG) as f64 + 0.5) / STRIP as f64;
             self.at(along - 0.5, from_m + away * (to_m - from_m))
         });
-        let met = places.filter(|(point, normal)| sight.ask(point, normal, model_m).0 == Says::Met);
-        met.map(|(point, normal)| sight.pixels(&point, &normal, cell)).sum()
+        let told = places.filter(|(point, normal)| sight.ask(point, normal, model_m).0 == says);
+        told.map(|(point, normal)| sight.pixels(&point, &normal, cell)).sum()
     }
 
     /// Whether it is a side's or a flap's inner face. A side leaves the rim downwards, a flap upwards: their inner faces look opposite ways.

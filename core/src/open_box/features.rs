@@ -9,7 +9,7 @@ use super::owners::Owners;
 use super::rims;
 use super::sight::Sight;
 use super::upright::lies;
-use crate::fit::{layout, Role};
+use crate::fit::{layout, lid_length_m, FittedBody, Role};
 
 /// Named values, always in the same order.
 pub type Features = Vec<(&'static str, f64)>;
@@ -46,7 +46,7 @@ pub const BOX_FEATURES: [&str; 29] = [
     "assignment",
     "lies",
 ];
-pub const PART_FEATURES: [&str; 14] = [
+pub const PART_FEATURES: [&str; 15] = [
     "one",
     "is_base",
     "is_flap",
@@ -61,6 +61,7 @@ pub const PART_FEATURES: [&str; 14] = [
     "few_and_hidden",
     "held",
     "goes_on",
+    "off_lid",
 ];
 
 /// A flap that is open further counts as open: flaps that lie closed look like a lid.
@@ -194,5 +195,13 @@ pub fn of_part(
         ("few_and_hidden", share(hidden, met + through) / (1.0 + readings.len() as f64 / UNIT)),
         ("held", if role == Role::Base { 1.0 } else { owners.held(readings.iter(), 1) }),
         ("goes_on", goes_on(sight, body, &found.present, role)),
+        ("off_lid", off_lid(body, role)),
     ]
+}
+
+/// Of a tuck flap, by what share its flap is longer or shorter than a lid.
+fn off_lid(body: &FittedBody, role: Role) -> f64 {
+    let Role::Tuck(k) = role else { return 0.0 };
+    let lid_m = lid_length_m(body, k).max(0.01);
+    ((body.get(layout::flap(k) + layout::FLAP_LENGTH) - lid_m).abs() / lid_m).min(1.0)
 }

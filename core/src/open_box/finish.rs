@@ -3,6 +3,7 @@
 use super::assignments::Assignments;
 use super::choose::Chosen;
 use super::crease::with_creases;
+use super::edge_on::with_edge_on_lids;
 use super::evidence::{Evidence, Sheet};
 use super::features;
 use super::flap_scan::ScannedFlap;
@@ -18,7 +19,8 @@ use super::sight::Sight;
 use super::slots::height_by_slots;
 use super::sure::drop_unsure;
 use crate::fit::{
-    canonical_turn, layout, share_of_score, with_known_size, FitSettings, KnownSize, NotFitted, Role, Solution,
+    canonical_turn, layout, share_of_score, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role,
+    Solution,
 };
 
 /// What boxes are finished by.
@@ -48,7 +50,23 @@ impl Finishing<'_> {
             Ok(best) if self.rank(&best) >= self.rank(&one) => Ok(best),
             _ => Ok(one),
         });
-        best.map(|best| self.below_slots(self.while_better(best)))
+        best.map(|best| self.below_slots(self.with_lids(self.while_better(best))))
+    }
+
+    /// The box with lids that are seen from their edges, where it ranks higher with them.
+    fn with_lids(&self, found: FoundBox) -> FoundBox {
+        let (body, present) = match with_edge_on_lids(self.sight, &found.solution.body, &found.present, FINE_M) {
+            Some(lids) => lids,
+            None => return found,
+        };
+        let with = if_better(self.sight, found.clone(), &body, present, self.settings);
+        if with.present == found.present {
+            return found;
+        }
+        match self.finish(FoundBox { rivals: found.rivals, ..with }) {
+            Ok(with) if self.rank(&with) > self.rank(&found) => with,
+            _ => found,
+        }
     }
 
     /// The box with sides that end where its corners open, and with the flaps that stand up on them; as it is where they do not, or
@@ -114,8 +132,15 @@ fn fit_to_all(
     settings: &FitSettings,
 ) -> Result<(Solution, Present, Option<NotFitted>), NotFitted> {
     let turn = canonical_turn(&found.solution.body, Some(sight.eye));
-    let (body, present) = (found.solution.body.turned(turn), found.present.turned(turn));
-    let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, FINE_M));
+    let body = found.solution.body.turned(turn);
+    // Of a lid that is seen from its edge the tuck flap has them.
+    let has_readings = std::array::from_fn(|k| {
+        let side = (k + turn) % 4;
+        [Role::Flap(side), Role::Tuck(side)].iter().any(|&role| !found.labels.of(role).is_empty())
+    });
+    // Flaps that were scanned and got no readings are none.
+    let present = found.present.turned(turn).among(&has_readings);
+    let (body, present) = with_tucks(&body, &present, &scan_tucks(sight, &body, &present, &has_readings, FINE_M));
     let mut labels = label(sight, &body, &present, FINE_M, 1);
     let (body, present) = match with_creases(sight, &body, &present, &labels) {
         Some((body, present)) => {
@@ -166,10 +191,15 @@ fn taken_up(sight: &Sight, found: FoundBox, flaps: &[Option<ScannedFlap>; 4], se
     let present = found.present;
     let (body, scanned) = with_flaps(&found.solution.body, flaps);
     let both = Present { flaps: std::array::from_fn(|k| present.flaps[k] || scanned.flaps[k]), ..present };
-    let mut labels = label(sight, &body, &both, FINE_M, 1);
-    drop_unsure(sight, &body, &mut labels);
-    let again = refit(sight, &body, &both, &labels, settings).ok().filter(|again| sound(&again.body).is_ok());
-    let again = again.map(|again| weigh(sight, again, both, 1));
+    if_better(sight, found, &body, both, settings)
+}
+
+/// Fitted with these parts instead, where more is held then.
+fn if_better(sight: &Sight, found: FoundBox, body: &FittedBody, present: Present, settings: &FitSettings) -> FoundBox {
+    let mut labels = label(sight, body, &present, FINE_M, 1);
+    drop_unsure(sight, body, &mut labels);
+    let again = refit(sight, body, &present, &labels, settings).ok().filter(|again| sound(&again.body).is_ok());
+    let again = again.map(|again| weigh(sight, again, present, 1));
     again.filter(|again| again.score > found.score).unwrap_or(found)
 }
 

@@ -4,11 +4,11 @@ use super::evidence::Sheet;
 use super::flap_scan::{scan, ScanRange, ScannedFlap};
 use super::hinge_line::HingeLine;
 use super::labels::Present;
-use super::sight::Sight;
-use crate::fit::{layout, FittedBody, Role};
+use super::sight::{Says, Sight};
+use crate::fit::{layout, lid_length_m, FittedBody, Role};
 
 /// Pushed a little into the box, to hanging down.
-const FLAP_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
+pub const FLAP_ANGLES_RAD: [f64; 2] = [-0.25, 4.3];
 /// Hanging into the box. Nearer to its side's plane it is what shows of a wall a little higher.
 const INTO_BOX_RAD: [f64; 2] = [-1.05, -0.2];
 
@@ -110,13 +110,24 @@ pub struct ScannedTuck {
 /// A flap was followed beyond its crease by as much.
 const FOLLOWED_TOO_FAR_M: [f64; 6] = [0.0, 0.01, 0.02, 0.03, 0.045, 0.06];
 
-/// The tuck flap on each flap's free edge, or where the flap's surface bends before it.
-pub fn scan_tucks(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64) -> [Option<ScannedTuck>; 4] {
+/// The tuck flap on each flap's free edge, where the flap's surface bends before it, or where a lid ends: what tucks in does so at
+/// the far side.
+///
+/// Lids are looked for among the flaps that `may_be_lid`.
+pub fn scan_tucks(
+    sight: &Sight,
+    body: &FittedBody,
+    present: &Present,
+    may_be_lid: &[bool; 4],
+    model_m: f64,
+) -> [Option<ScannedTuck>; 4] {
     std::array::from_fn(|k| {
         if !present.flaps[k] {
             return None;
         }
-        let found = FOLLOWED_TOO_FAR_M.iter().filter_map(|&less_m| scan_tuck(sight, body, k, less_m, model_m));
+        let of_flap = FOLLOWED_TOO_FAR_M.iter().filter_map(|&less_m| scan_tuck(sight, body, k, less_m, model_m));
+        let of_lid = may_be_lid[k].then(|| scan_lid_tuck(sight, body, k, model_m)).flatten();
+        let found = of_flap.chain(of_lid);
         let best = found.fold(None, |best: Option<(f64, ScannedTuck)>, one| match best {
             Some(best) if best.0 >= one.0 => Some(best),
             _ => Some(one),
@@ -132,18 +143,63 @@ fn scan_tuck(sight: &Sight, body: &FittedBody, k: usize, less_m: f64, model_m: f
     if less_m > 0.0 && flap_length_m < (1.0 - TUCK_SHARE) * length_m {
         return None;
     }
-    let mut shorter = body.clone();
-    shorter.numbers[layout::flap(k) + layout::FLAP_LENGTH] = flap_length_m;
-    let longest_m = (TUCK_SHARE * flap_length_m).min(MOST_TUCK_M);
-    let FlapScan { peaks, columns, .. } = FINE_SCAN;
-    let range = ScanRange { angles_rad: TUCK_ANGLES_RAD, longest_m, model_m, peaks, columns, over_hidden: false };
-    let tuck = scan(sight, &HingeLine::of_flap(&shorter, k), &range).filter(is_flap)?;
-    let sheet = Sheet::new(body, Role::Flap(k), &sight.eye);
-    let given_up = if less_m > 0.0 { sheet.met_between(sight, [flap_length_m, length_m], model_m) } else { 0.0 };
-    let more = tuck.score() - given_up;
+    let tuck = tuck_beyond(sight, body, k, flap_length_m, model_m)?;
+    let more = tuck.score() - given_up(sight, body, k, flap_length_m, model_m);
     // A flap that is flat on bends nowhere.
     let is_bent = less_m == 0.0 || (tuck.angle_rad.abs() > BENT_RAD && more > LEAST_MET);
     is_bent.then_some((more, ScannedTuck { tuck, flap_length_m }))
+}
+
+/// The same of a flap that reaches across the box, however much of it was seen: its tuck flap may hide it, or lie in its plane.
+fn scan_lid_tuck(sight: &Sight, body: &FittedBody, k: usize, model_m: f64) -> Option<(f64, ScannedTuck)> {
+    let length_m = body.get(layout::flap(k) + layout::FLAP_LENGTH);
+    let lid_m = lid_length_m(body, k);
+    if length_m < LEAST_LID_SHARE * lid_m {
+        return None;
+    }
+    let tuck = tuck_beyond(sight, body, k, lid_m, model_m)?;
+    let mut lid = body.clone();
+    lid.numbers[layout::flap(k) + layout::FLAP_LENGTH] = lid_m;
+    let sheet = Sheet::new(&lid, Role::Flap(k), &sight.eye);
+    let through =
+        if lid_m > length_m { sheet.asked_between(sight, [length_m, lid_m], model_m, Says::Through) } else { 0.0 };
+    let more = tuck.score() - given_up(sight, body, k, lid_m, model_m) - 2.0 * through;
+    // In the lid's plane only what is much shorter than that is no piece of it.
+    let is_flat = tuck.angle_rad.abs() < BENT_RAD;
+    let is_lid =
+        through < tuck.score() && tuck.score() > LEAST_MET && !(is_flat && tuck.length_m > LONGEST_FLAT_SHARE * lid_m);
+    is_lid.then_some((more + LID_SHARE * tuck.score(), ScannedTuck { tuck, flap_length_m: lid_m }))
+}
+
+/// Of a lid so much is seen, at least; and that a tuck flap hangs where lids end counts for this share of its readings.
+const LEAST_LID_SHARE: f64 = 0.4;
+const LID_SHARE: f64 = 0.5;
+const LONGEST_FLAT_SHARE: f64 = 0.3;
+
+/// The board on the free edge of flap `k`, were that so long.
+pub fn tuck_beyond(
+    sight: &Sight,
+    body: &FittedBody,
+    k: usize,
+    flap_length_m: f64,
+    model_m: f64,
+) -> Option<ScannedFlap> {
+    let mut so_long = body.clone();
+    so_long.numbers[layout::flap(k) + layout::FLAP_LENGTH] = flap_length_m;
+    let longest_m = (TUCK_SHARE * flap_length_m).min(MOST_TUCK_M);
+    let FlapScan { peaks, columns, .. } = FINE_SCAN;
+    let range = ScanRange { angles_rad: TUCK_ANGLES_RAD, longest_m, model_m, peaks, columns, over_hidden: false };
+    scan(sight, &HingeLine::of_flap(&so_long, k), &range).filter(is_flap)
+}
+
+/// Readings of flap `k` beyond that length.
+fn given_up(sight: &Sight, body: &FittedBody, k: usize, flap_length_m: f64, model_m: f64) -> f64 {
+    let length_m = body.get(layout::flap(k) + layout::FLAP_LENGTH);
+    if flap_length_m >= length_m {
+        return 0.0;
+    }
+    let sheet = Sheet::new(body, Role::Flap(k), &sight.eye);
+    sheet.asked_between(sight, [flap_length_m, length_m], model_m, Says::Met)
 }
 
 /// A crease before a flap's end bends by more.

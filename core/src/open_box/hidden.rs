@@ -19,7 +19,9 @@ pub struct Unseen {
 }
 
 /// Of the parts of a box that no view saw, `unseen`, flaps before their tuck flaps. The last view is where the camera is.
-pub fn unseen_parts(found: &FoundBox, sights: &[Sight], unseen: &[Role]) -> Vec<Unseen> {
+///
+/// Flaps whose tuck flaps were seen are there, where those say.
+pub fn unseen_parts(found: &FoundBox, sights: &[Sight], unseen: &[Role], has_seen_tuck: [bool; 4]) -> Vec<Unseen> {
     let body = &found.solution.body;
     let there: Vec<Role> = roles(&found.present);
     let surroundings = Surroundings::new(sights, body, &there);
@@ -30,6 +32,7 @@ pub fn unseen_parts(found: &FoundBox, sights: &[Sight], unseen: &[Role]) -> Vec<
                 let Some((_, evidence)) = found.evidence.iter().find(|(r, _)| *r == role) else { continue };
                 (PartState::unseen(&evidence.looked()), vec![(body.clone(), 1.0)])
             }
+            Role::Flap(k) if has_seen_tuck[k] => (PartState::HIDDEN, vec![(body.clone(), 1.0)]),
             Role::Flap(k) => {
                 let flap = unseen_flap(sights, body, k, usual_length_m(body, found.present.flaps));
                 (flap.state, flap.poses)

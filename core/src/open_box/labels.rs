@@ -15,6 +15,12 @@ impl Present {
         let turn = |of: &[bool; 4]| std::array::from_fn(|k| of[(k + by) % 4]);
         Self { flaps: turn(&self.flaps), tucks: turn(&self.tucks) }
     }
+
+    /// Those of them that hang on the sides told.
+    pub fn among(&self, sides: &[bool; 4]) -> Self {
+        let both = |of: &[bool; 4]| std::array::from_fn(|k| of[k] && sides[k]);
+        Self { flaps: both(&self.flaps), tucks: both(&self.tucks) }
+    }
 }
 
 /// The readings of each part of a box, in the image's order.

@@ -7,6 +7,7 @@ mod choose;
 mod closed;
 mod closed_box;
 mod crease;
+mod edge_on;
 mod ends;
 mod evidence;
 mod features;

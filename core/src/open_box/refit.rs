@@ -8,8 +8,8 @@ use super::sight::Sight;
 use super::upright::{lies, lower_side};
 use crate::cloud::CloudView;
 use crate::fit::{
-    kept_length, layout, priors, solve, FaceReading, FitSettings, FittedBody, NotFitted, OtherView, PartEnds,
-    PartReadings, PartSegment, PlaceSigma, Prior, Problem, Rim, Role, Sensor, Solution, Support,
+    kept_length, layout, lid_length, priors, solve, FaceReading, FitSettings, FittedBody, NotFitted, OtherView,
+    PartEnds, PartReadings, PartSegment, PlaceSigma, Prior, Problem, Rim, Role, Sensor, Solution, Support,
 };
 use crate::geometry::{Plane, Vec3};
 
@@ -60,11 +60,12 @@ pub fn refit_views(
     if stands && lies(body) {
         first.push(on_support(body, settings));
     }
+    let lids = (0..4).filter(|&k| present.flaps[k] && present.tucks[k]).map(lid_length);
     let problem = Problem {
         parts: first,
         others: others.collect(),
         support: (stands && !lies(body)).then_some(Support { plane, is_level: up > LEVEL_COS }),
-        priors: priors(body).into_iter().chain(kept).collect(),
+        priors: priors(body).into_iter().chain(kept).chain(lids).collect(),
         settings: *settings,
     };
     solve(&problem, body)

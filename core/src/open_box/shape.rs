@@ -10,7 +10,7 @@ pub struct Shape {
     /// Length, width, height.
     pub dimensions_m: [f64; 3],
     pub thickness_m: f64,
-    /// From hinge to free edge; `None` where no flap was seen.
+    /// From hinge to free edge; `None` where no flap is known.
     pub flaps_m: [Option<f64>; 4],
     /// Hinge angles of flaps; of those that were not seen they say nothing.
     pub flaps_rad: [f64; 4],
@@ -50,7 +50,8 @@ impl Shape {
         Self {
             dimensions_m: [layout::LENGTH, layout::WIDTH, layout::HEIGHT].map(|place| body.get(place)),
             thickness_m: body.board_m(),
-            flaps_m: std::array::from_fn(|k| seen(Role::Flap(k)).then(|| flap_m(k))),
+            // A lid is known by its tuck flap, too.
+            flaps_m: std::array::from_fn(|k| (seen(Role::Flap(k)) || seen(Role::Tuck(k))).then(|| flap_m(k))),
             flaps_rad: std::array::from_fn(|k| body.get(layout::flap(k) + layout::FLAP_ANGLE)),
             has_tuck: std::array::from_fn(|k| seen(Role::Tuck(k))),
         }

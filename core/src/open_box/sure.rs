@@ -1,5 +1,7 @@
 //! Which parts of a fitted body are sure enough to be told.
 
+use super::edge_on::is_edge_on;
+use super::grow::FINE_M;
 use super::labels::{Labels, Present};
 use super::lean::lean;
 use super::sight::Sight;
@@ -20,7 +22,7 @@ pub fn drop_unsure(sight: &Sight, body: &FittedBody, labels: &mut Labels) {
         }
     }
     for k in 0..4 {
-        if labels.of(Role::Flap(k)).is_empty() {
+        if labels.of(Role::Flap(k)).is_empty() && !is_edge_on(sight, body, Role::Flap(k), FINE_M) {
             labels.clear(Role::Tuck(k));
         }
     }

@@ -38,7 +38,9 @@ pub fn best_tucks(
     others: &[(FittedBody, Present)],
     model_m: f64,
 ) -> (FittedBody, Present) {
-    let scanned = sights.iter().map(|sight| with_tucks(body, present, &scan_tucks(sight, body, present, model_m)));
+    let scanned = sights
+        .iter()
+        .map(|sight| with_tucks(body, present, &scan_tucks(sight, body, present, &present.flaps, model_m)));
     let guesses: Vec<(FittedBody, Present)> = others.iter().cloned().chain(scanned).collect();
     let (mut out, mut has) = (body.clone(), *present);
     for k in (0..4).filter(|&k| present.flaps[k]) {
