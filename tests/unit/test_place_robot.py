@@ -9,7 +9,7 @@ from closing.problems import draw_problem
 from boxwright.planning import place_robot, placement, plan_closing
 
 ROBOT = "viper_s850"
-WHOLE = (1, 9)
+WHOLE = (7, 9)
 """Problems whose flaps can all be closed from some place."""
 LIGHT = 12
 """A light box: statics let two of its flaps be closed, wherever the arm stands."""

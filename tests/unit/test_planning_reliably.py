@@ -22,12 +22,18 @@ OVER_THE_RIM = (1128, 45)
 """A box out of square: flaps reach over the rim's corners, and pass their neighbours only where ends give way."""
 OVER_OTHERS = (1129, 9, "flap_3")
 """A lid over flaps so short that fingers on it, closed, would be too near to them; wide searches find the way."""
-ON_STACKS = {(1130, 1): "flap_0", (2013, 0): "flap_2"}
-"""Flaps that come to lie on others that overlap, and spring back beyond what counts as closed by itself."""
+ON_STACKS = {(2013, 0): "flap_2"}
+"""A flap that comes to lie on others that overlap, and springs back beyond what counts as closed by itself."""
 IN_TWO = (2011, 31, "flap_1")
 """A flap that no push from the start closes."""
 
-STRANDED = {1: 1, 7: 2, 13: 2, 25: 2}
+SQUARELY = ((1133, 58, "ordinary"), (1133, 66, "pre_broken"))
+"""Boxes of which a finger slipped off a flap's edge that it pressed aslant."""
+BY_THE_BASE = (1133, 86, "flap_3")
+"""A flap that would swing into the arm's base."""
+PRESSED_DOWN = (1133, 7)
+"""Four long flaps of which each lies on others that spring up; those near its hinge are pressed down easily."""
+STRANDED = {7: 2, 12: 1, 13: 2, 25: 1}
 """By number: boxes of seed 2013, and to how many flaps an arm that knows straight lines alone finds no way."""
 
 STRAIGHT_ALONE = {"transit_tries": 0, "shortcuts": 0}
@@ -103,3 +109,24 @@ def test_flaps_on_stacks_are_taken_to_rest_where_physics_leaves_them() -> None:
         assert told_rad > np.radians(20.0), f"problem {number}"
         assert abs(told_rad - left_rad) < np.radians(5.0), f"problem {number}"
         assert run.flaps[name].held, f"problem {number}"
+
+
+def test_fingers_press_flaps_squarely_enough_not_to_slip_off() -> None:
+    for seed, number, crease in SQUARELY:
+        plan = _plan(seed, number, crease)
+        assert plan.order, f"problem {number}"
+        assert _all_held(seed, number, crease, plan), f"problem {number}"
+
+
+def test_a_flap_that_would_meet_the_arms_base_is_left_open() -> None:
+    seed, number, name = BY_THE_BASE
+    plan = _plan(seed, number, "pre_broken")
+    assert (plan.flaps[name].status, plan.flaps[name].reason) == ("blocked", f"base comes too near to {name}")
+    assert len(plan.order) == 2
+    assert _all_held(seed, number, "pre_broken", plan)
+
+
+def test_flaps_below_others_are_pressed_down_near_the_hinge_of_those() -> None:
+    plan = _plan(*PRESSED_DOWN, "pre_broken")
+    assert len(plan.order) == 4
+    assert _all_held(*PRESSED_DOWN, "pre_broken", plan)

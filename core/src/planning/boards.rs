@@ -10,6 +10,8 @@ use crate::geometry::Vec3;
 /// The moving board is taken to be this much smaller all round: boards that only graze are given way by the folds, and models err
 /// by millimetres.
 const GRAZE_M: f64 = 0.006;
+/// Of a short flap, by no more than this share of its length.
+const GRAZE_SHARE: f64 = 0.1;
 /// Between two angles at which boards are held against each other.
 const STEP_RAD: f64 = 0.06;
 /// The ends of a flap that has sprung up give way by this much to one that comes down beside them. Steeper than this it presses them
@@ -46,7 +48,8 @@ pub fn met(
             continue;
         }
         let corners = moving.corners(angle_rad);
-        let [whole, inner] = [GRAZE_M, GOING_UNDER_END_M].map(|ends_m| shortened(&corners, ends_m, GRAZE_M));
+        let graze_m = GRAZE_M.min(GRAZE_SHARE * moving.length_m());
+        let [whole, inner] = [GRAZE_M, GOING_UNDER_END_M].map(|ends_m| shortened(&corners, ends_m, graze_m));
         let counts = |other: &&Beside| angle_rad > JAM_RAD || !other.gives_way;
         let meets = |other: &Beside| quads_cross(if other.is_over { &inner } else { &whole }, &other.corners);
         if let Some(other) = others.iter().filter(counts).find(|other| meets(other)) {

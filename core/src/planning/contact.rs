@@ -110,16 +110,18 @@ impl<'a> Contacts<'a> {
         let from_tip_m = (tool - contact).dot(&finger.flap_from_tool.column(2));
         let hooks = *into_face < 0.0;
         let held = from_tip_m >= self.settings.least_hook_m && from_tip_m <= self.finger.length_m - 0.01;
-        if lever < self.settings.least_lever || (hooks && !held) {
+        let square = touch.normal.z;
+        if lever < self.settings.least_lever || square < self.settings.least_square || (hooks && !held) {
             return None;
         }
         let aside = (touch.contact[0] / self.flap.hinge_length_m() - 0.5).abs();
         let contact = frame.at(contact.x, contact.y, contact.z);
-        let strain = self.strain(frame, touch.contact[1], &contact);
+        let strain = self.strain(frame, touch.contact[1], &contact, &touch.normal);
         let penalty = (1.0 - lever).max(0.0)
             + 0.6 * aside
             + (0.7 - into_face).max(0.0).powi(2)
             + (-into_face).max(0.0)
+            + SLANT_WEIGHT * (1.0 - square)
             + STRAIN_WEIGHT * strain.powi(2);
         Some(Grip {
             base_from_tool: Rigid::new(*base_from_tool, frame.at(tool.x, tool.y, tool.z)),
@@ -129,17 +131,21 @@ impl<'a> Contacts<'a> {
         })
     }
 
-    /// Of a push square to the face at a lever that overcomes crease and weight; 0 where the flap falls by itself.
-    fn strain(&self, frame: &FlapFrame, lever_m: f64, contact: &Vec3) -> f64 {
+    /// Of a push along the touch's normal, at a lever, that overcomes crease and weight; 0 where the flap falls by itself.
+    fn strain(&self, frame: &FlapFrame, lever_m: f64, contact: &Vec3, normal: &Vec3) -> f64 {
         let Some(stand) = self.stand else { return 0.0 };
         let cos = frame.away.dot(&self.flap.inward).clamp(-1.0, 1.0);
-        let push_n = self.fold.closing_n_m(cos.acos()).max(0.0) / lever_m;
-        stand.strain(contact, &(frame.push() * push_n)).max(0.0)
+        // What presses aside turns nothing.
+        let push_n = self.fold.closing_n_m(cos.acos()).max(0.0) / (lever_m * normal.z);
+        let pressed = frame.along * normal.x + frame.away * normal.y + frame.outward * normal.z;
+        stand.strain(contact, &(pressed * -push_n)).max(0.0)
     }
 }
 
 /// What the strain squared counts in eq. 85.
 const STRAIN_WEIGHT: f64 = 1.5;
+/// What a push that slants off the face's normal counts, by one less the cosine.
+const SLANT_WEIGHT: f64 = 1.0;
 
 /// Values from low to high a step apart, at most so many, both ends among them; the middle alone where they pass each other.
 fn spread(low: f64, high: f64, step: f64, most: usize) -> Vec<f64> {

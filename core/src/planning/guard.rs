@@ -41,6 +41,11 @@ pub trait Guard {
     where
         Self: Sized;
 
+    /// Does the flap that is pushed meet the arm's own base, which stands still?
+    fn base_conflict(&self, _moment: &Moment) -> Option<Obstacle> {
+        None
+    }
+
     /// A new question begins: what comes too near to what is told again.
     fn explain_anew(&self) {}
 }

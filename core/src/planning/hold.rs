@@ -8,7 +8,7 @@ use super::push::PushMotion;
 
 /// How far a flap that sprang up is pressed down again, between where it was held, where it lies on boards itself, and where its crease
 /// alone would let it go: chosen by what stacks of flaps do in physics.
-const PRESSED_SHARE: f64 = 0.5;
+const PRESSED_SHARE: f64 = 0.8;
 /// Boards that cross at an edge crush it: what is left of their thickness there.
 const CRUSHED_SHARE: f64 = 0.4;
 

@@ -73,15 +73,14 @@ impl<G: Guard> Pusher<'_, G> {
             caught: Cell::new(0),
         };
         let fine_settings = self.settings.with_fine_contacts();
-        let over_settings = self.settings.with_contacts_over_edges();
-        let (fine, over) = (self.contacts.finer(&fine_settings), self.contacts.finer(&over_settings));
+        let fine = self.contacts.finer(&fine_settings);
         self.guard.explain_anew();
         let mut why = None;
         for (k, &beam) in self.settings.beams.iter().enumerate() {
             if search.is_caught() {
                 break;
             }
-            let contacts = [&self.contacts, &fine, &over][k.min(2)];
+            let contacts = if k == 0 { &self.contacts } else { &fine };
             match search.run(beam, contacts) {
                 Ok(motion) => return Ok(motion),
                 Err(found) => why = Some(found),

@@ -7,7 +7,7 @@ use super::guard::{Guard, Moment};
 use super::known::{Force, Tried};
 use super::orientations::OrientationGrid;
 use super::planes::PlanesSearch;
-use super::push::{closed_finger, PushMotion, Pusher};
+use super::push::{closed_finger, layers_between, PushMotion, Pusher};
 use super::reason::{Obstacle, WhyNot};
 use super::request::Method;
 use super::settings::PlanningSettings;
@@ -31,6 +31,9 @@ impl<G: Guard> Closer<'_, G> {
         let hold_rad = self.hold_rad(flap, moment);
         if let Some(obstacle) = self.kept_open(flap, moment, hold_rad) {
             return Err(WhyNot::by_boards(&obstacle));
+        }
+        if let Some(obstacle) = self.meets_base(flap, moment, hold_rad) {
+            return Err(WhyNot { by_flaps: false, ..WhyNot::by_boards(&obstacle) });
         }
         let strain = self.load.worst_strain(self.problem, flap);
         if strain <= self.settings.fork.least_strain {
@@ -104,6 +107,12 @@ impl<G: Guard> Closer<'_, G> {
             let is_propped = hold_rad > self.settings.most_propped_rad;
             is_propped.then(|| Obstacle::Propped { flap: self.problem.flaps[flap].name.clone() })
         })
+    }
+
+    /// The arm's own base, where it stands in a flap's way.
+    fn meets_base(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Option<Obstacle> {
+        let angles_rad = layers_between(moment.angles_rad[flap], hold_rad, self.settings.layer_rad / 2.0);
+        angles_rad.into_iter().find_map(|at_rad| self.guard.base_conflict(&moment.pushing(flap, at_rad)))
     }
 
     /// A flap's settings, as wide as its margins are by now.

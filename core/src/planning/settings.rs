@@ -45,7 +45,7 @@ pub struct PlanningSettings {
     pub layer_rad: f64,
     /// Between two samples of a push, at most.
     pub sample_rad: f64,
-    /// States kept in each layer: a first try, one among finer contacts where it fails, then with contacts over the flap's edges.
+    /// States kept in each layer: a first try, and one among finer contacts where it fails.
     pub beams: Vec<usize>,
     /// Between contacts along and across a flap, and how many of them at most.
     pub contact_step_m: f64,
@@ -63,6 +63,8 @@ pub struct PlanningSettings {
     pub most_lean: f64,
     /// From the tip to where a hooked edge may lie on the finger, at the least.
     pub least_hook_m: f64,
+    /// The least cosine between where the finger presses and the face's normal: with less it slips off the edge that it holds.
+    pub least_square: f64,
     /// How far a joint may turn from one layer to the next, and from one sample to the next.
     pub most_turn_rad: f64,
     pub most_sample_turn_rad: f64,
@@ -96,10 +98,9 @@ pub struct PlanningSettings {
 pub struct FineContacts {
     pub contact_step_m: f64,
     pub most_contacts: [usize; 2],
-    /// In searches after the second the finger may stand over an end of the flap, or over its free edge: it touches with a side of
-    /// its tip then, and slips off more easily.
-    pub over_inset_m: f64,
-    pub over_beyond_m: f64,
+    /// The finger may stand over an end of the flap, or over its free edge, as far as it presses on it squarely enough.
+    pub contact_inset_m: f64,
+    pub contact_beyond_m: f64,
     pub least_lever: f64,
     pub most_lean: f64,
     pub least_hook_m: f64,
@@ -162,8 +163,8 @@ impl Default for FineContacts {
         Self {
             contact_step_m: 0.02,
             most_contacts: [13, 9],
-            over_inset_m: -0.008,
-            over_beyond_m: 0.006,
+            contact_inset_m: -0.008,
+            contact_beyond_m: 0.006,
             least_lever: 0.2,
             most_lean: 0.95,
             least_hook_m: 0.006,
@@ -172,18 +173,14 @@ impl Default for FineContacts {
 }
 
 impl PlanningSettings {
-    /// With the fine contacts in the place of the others, and those that stand over the flap's edges.
-    pub fn with_contacts_over_edges(&self) -> Self {
-        let FineContacts { over_inset_m, over_beyond_m, .. } = self.fine_contacts;
-        Self { contact_inset_m: over_inset_m, contact_beyond_m: over_beyond_m, ..self.with_fine_contacts() }
-    }
-
     /// With the fine contacts in the place of the others.
     pub fn with_fine_contacts(&self) -> Self {
         let fine = &self.fine_contacts;
         Self {
             contact_step_m: fine.contact_step_m,
             most_contacts: fine.most_contacts,
+            contact_inset_m: fine.contact_inset_m,
+            contact_beyond_m: fine.contact_beyond_m,
             least_lever: fine.least_lever,
             most_lean: fine.most_lean,
             least_hook_m: fine.least_hook_m,
@@ -215,7 +212,7 @@ impl Default for PlanningSettings {
             fork: ForkSettings::default(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
-            beams: vec![16, 50, 40],
+            beams: vec![16, 50],
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,
@@ -224,6 +221,7 @@ impl Default for PlanningSettings {
             touch_gap_m: 0.0003,
             most_lean: 0.6,
             least_hook_m: 0.018,
+            least_square: 0.6,
             fine_contacts: FineContacts::default(),
             most_turn_rad: 0.9,
             most_sample_turn_rad: 0.25,

@@ -109,8 +109,10 @@ impl<'a> Surroundings<'a> {
         let mut rules = Rules::new(self.arm, &state.world, clearance_m);
         // It is bolted down: where it stands is checked before anything is planned.
         rules.set_body(0, IGNORED);
-        if let Some(&board) = pushed.and_then(|flap| self.boards[flap].first()) {
-            rules.set(self.arm.fingers_body(), board, -ROUNDING_M);
+        if let Some(boards) = pushed.map(|flap| &self.boards[flap]) {
+            // What is pushed comes to where nothing stood then.
+            boards.iter().for_each(|&board| rules.set(0, board, 0.0));
+            boards.first().into_iter().for_each(|&board| rules.set(self.arm.fingers_body(), board, -ROUNDING_M));
         }
         state.rules.push((key, rules));
         state.rules.len() - 1
@@ -191,6 +193,17 @@ impl Guard for Surroundings<'_> {
             }
         }
         None
+    }
+
+    fn base_conflict(&self, moment: &Moment) -> Option<Obstacle> {
+        let state = &mut *self.state.borrow_mut();
+        self.place(state, moment);
+        let mut rules = Rules::new(self.arm, &state.world, IGNORED);
+        self.boards[moment.pushed?].iter().for_each(|&board| rules.set(0, board, 0.0));
+        let checker = Checker { arm: self.arm, pieces: &self.pieces, world: &state.world };
+        let nearest = checker.nearest(&self.arm.ready, &rules).filter(|nearest| nearest.spare_m < 0.0)?;
+        let (body, other) = (self.arm.body_name(nearest.body), checker.other_name(nearest.other));
+        Some(Obstacle::Near { body: body.to_string(), other: other.to_string() })
     }
 
     fn with_opening(&self, opening_m: f64) -> Self {

@@ -31,6 +31,8 @@ pub struct Touch {
     pub tool_outward_m: f64,
     /// The point of touch on the outer face: along the hinge, away from it.
     pub contact: [f64; 2],
+    /// Out of the board, square to what touches: the unit vector, in the flap's frame, against which the finger presses.
+    pub normal: Vec3,
 }
 
 impl Finger {
@@ -63,17 +65,18 @@ impl TurnedFinger {
         let place = |p: &Vec3| [at[0] + p.x, at[1] + p.y];
         // Mostly the corner that reaches furthest is over the flap: nothing reaches further.
         if contains(outline, place(&self.furthest)) {
-            return Some(Touch { tool_outward_m: half_board_m - self.furthest.z, contact: place(&self.furthest) });
+            let (tool_outward_m, contact) = (half_board_m - self.furthest.z, place(&self.furthest));
+            return Some(Touch { tool_outward_m, contact, normal: Vec3::z() });
         }
-        let mut lowest: Option<(f64, [f64; 2])> = None;
-        let mut consider = |w: f64, place: [f64; 2]| {
-            if lowest.is_none_or(|(best, _)| w < best) {
-                lowest = Some((w, place));
+        let mut lowest: Option<(f64, [f64; 2], Vec3)> = None;
+        let mut consider = |w: f64, place: [f64; 2], square: Vec3| {
+            if lowest.is_none_or(|(best, ..)| w < best) {
+                lowest = Some((w, place, square));
             }
         };
         for corner in corners {
             if contains(outline, place(corner)) {
-                consider(corner.z, place(corner));
+                consider(corner.z, place(corner), Vec3::z());
             }
         }
         for a in 0..8usize {
@@ -85,21 +88,26 @@ impl TurnedFinger {
         }
         for corner in outline {
             let offset = [corner[0] - at[0], corner[1] - at[1]];
-            if let Some(w) = self.lowest_over(offset) {
-                consider(w, *corner);
+            if let Some((w, square)) = self.lowest_over(offset) {
+                consider(w, *corner, square);
             }
         }
-        lowest.map(|(w, contact)| Touch { tool_outward_m: half_board_m - w, contact })
+        lowest.map(|(w, contact, square)| {
+            let normal = square.try_normalize(0.0).unwrap_or(Vec3::z());
+            let normal = if normal.z < 0.0 { -normal } else { normal };
+            Touch { tool_outward_m: half_board_m - w, contact, normal }
+        })
     }
 
-    /// The lowest point of the finger on the line along `outward` through `offset` from the tool point.
-    fn lowest_over(&self, offset: [f64; 2]) -> Option<f64> {
+    /// The lowest point of the finger on the line along `outward` through `offset` from the tool point, and what is square to the
+    /// finger's face there.
+    fn lowest_over(&self, offset: [f64; 2]) -> Option<(f64, Vec3)> {
         let (finger, flap_from_tool) = (&self.finger, &self.flap_from_tool);
         let start = flap_from_tool.tr_mul(&Vec3::new(offset[0], offset[1], 0.0));
         let direction = flap_from_tool.tr_mul(&Vec3::z());
         let low = [-finger.half_m[0], -finger.half_m[1], -finger.length_m];
         let high = [finger.half_m[0], finger.half_m[1], 0.0];
-        let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
+        let (mut enter, mut leave, mut face) = (f64::NEG_INFINITY, f64::INFINITY, 2);
         for k in 0..3 {
             if direction[k].abs() < 1e-12 {
                 if start[k] < low[k] || start[k] > high[k] {
@@ -108,15 +116,23 @@ impl TurnedFinger {
                 continue;
             }
             let (p, q) = ((low[k] - start[k]) / direction[k], (high[k] - start[k]) / direction[k]);
-            enter = enter.max(p.min(q));
+            if p.min(q) > enter {
+                (enter, face) = (p.min(q), k);
+            }
             leave = leave.min(p.max(q));
         }
-        (enter <= leave).then_some(enter)
+        (enter <= leave).then(|| (enter, flap_from_tool.column(face).into_owned()))
     }
 }
 
 /// Where the finger's edge from p to q passes over an edge of the flap.
-fn cross_edges(outline: &[[f64; 2]; 4], p: &Vec3, q: &Vec3, at: [f64; 2], consider: &mut impl FnMut(f64, [f64; 2])) {
+fn cross_edges(
+    outline: &[[f64; 2]; 4],
+    p: &Vec3,
+    q: &Vec3,
+    at: [f64; 2],
+    consider: &mut impl FnMut(f64, [f64; 2], Vec3),
+) {
     let (px, py) = (at[0] + p.x, at[1] + p.y);
     let (dx, dy) = (q.x - p.x, q.y - p.y);
     for k in 0..4 {
@@ -129,7 +145,8 @@ fn cross_edges(outline: &[[f64; 2]; 4], p: &Vec3, q: &Vec3, at: [f64; 2], consid
         let s = ((a[0] - px) * ey - (a[1] - py) * ex) / cross;
         let t = ((a[0] - px) * dy - (a[1] - py) * dx) / cross;
         if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
-            consider(p.z + s * (q.z - p.z), [a[0] + t * ex, a[1] + t * ey]);
+            let square = (q - p).cross(&Vec3::new(ex, ey, 0.0));
+            consider(p.z + s * (q.z - p.z), [a[0] + t * ex, a[1] + t * ey], square);
         }
     }
 }
@@ -201,10 +218,38 @@ mod tests {
         assert!(touched > 40, "{touched}");
     }
 
+    /// A finger that keeps touching while it is moved aside moves square to the normal, wherever it touches.
+    #[test]
+    fn the_normal_is_square_to_what_the_touch_lets_move() {
+        const ASIDE_M: f64 = 1e-7;
+        let mut rng = SplitMix64::new(85);
+        let mut slanting = 0;
+        for _ in 0..400 {
+            let axis = Vec3::new(rng.unit() - 0.5, rng.unit() - 0.5, rng.unit() - 0.5);
+            let finger = TurnedFinger::new(FINGER, *Rotation3::new(axis.normalize() * (6.0 * rng.unit())).matrix());
+            let at = [0.24 * rng.unit() - 0.02, 0.14 * rng.unit() - 0.02];
+            let touch = |x: f64, y: f64| finger.touch(&OUTLINE, 0.002, [at[0] + x, at[1] + y]);
+            let Some((here, along, away)) =
+                touch(0.0, 0.0).and_then(|here| Some((here, touch(ASIDE_M, 0.0)?, touch(0.0, ASIDE_M)?)))
+            else {
+                continue;
+            };
+            assert!((here.normal.norm() - 1.0).abs() < 1e-12 && here.normal.z > 0.0);
+            let is_one_touch = (here.normal - along.normal).norm() + (here.normal - away.normal).norm() < 1e-9;
+            for (moved, aside) in [(along, Vec3::x()), (away, Vec3::y())].iter().filter(|_| is_one_touch) {
+                let way = aside * ASIDE_M + Vec3::z() * (moved.tool_outward_m - here.tool_outward_m);
+                assert!(way.dot(&here.normal).abs() < 1e-5 * way.norm(), "{:?} {way:?}", here.normal);
+                slanting += usize::from(here.normal.z < 0.9);
+            }
+        }
+        assert!(slanting > 60, "{slanting}");
+    }
+
     #[test]
     fn a_finger_square_on_the_face_stands_on_its_tip() {
         let down = *Rotation3::from_axis_angle(&Vec3::x_axis(), std::f64::consts::PI).matrix();
         let touch = TurnedFinger::new(FINGER, down).touch(&OUTLINE, 0.002, [0.1, 0.05]).unwrap();
         assert!((touch.tool_outward_m - 0.002).abs() < 1e-12);
+        assert!((touch.normal - Vec3::z()).norm() < 1e-12);
     }
 }
