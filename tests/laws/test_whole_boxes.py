@@ -116,7 +116,7 @@ def test_a_flap_is_found_whose_hinge_is_hidden_and_which_no_line_of_sight_runs_a
 
 
 def test_a_box_is_finished_anew_from_where_it_has_come_to() -> None:
-    """Finished once this box, which shows two flaps, one of them of 601 readings, and a tuck flap, was not told at all."""
+    """Finished once this box, which shows two flaps (one of 601 readings) and a tuck flap, was not told at all."""
     (found,) = boxwright.infer(cloud_of(make_frame("cake", 501, 178))).model.objects
     assert max(_positions_deg(found, "flap")) == pytest.approx(79.0, abs=6.0)
     assert _positions_deg(found, "tuck") == pytest.approx([-7.0], abs=6.0)
