@@ -1,7 +1,6 @@
 use std::collections::BTreeMap;
 
-use super::edge_on::is_edge_on;
-use super::grow::{FoundBox, FINE_M};
+use super::grow::FoundBox;
 use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
 use super::sight::{reading_of, Sight};
@@ -46,8 +45,9 @@ pub fn answer(
     for k in 0..4 {
         // A flap on a flap that was not seen hangs on nothing, but where that is seen from its edge.
         let (Some(flap), Some(tuck)) = (box_roles.flaps[k], box_roles.tucks[k]) else { continue };
-        let is_edge_on = || sights.iter().all(|sight| is_edge_on(sight, &found.solution.body, Role::Flap(k), FINE_M));
-        if seen[tuck] && !seen[flap] && !is_edge_on() {
+        let evidence = found.evidence.iter().find(|(role, _)| *role == Role::Flap(k));
+        let is_edge_on = evidence.is_some_and(|(_, evidence)| evidence.is_edge_on());
+        if seen[tuck] && !seen[flap] && !is_edge_on {
             seen[tuck] = false;
             parts[tuck].points = 0;
             parts[tuck].probability = None;

@@ -13,14 +13,6 @@ const STEP_RAD: f64 = 0.02;
 /// A tuck flap holds so many pixels, and so many for each that one sees through lid and tuck flap.
 const LEAST_PX: f64 = 350.0;
 const MET_TO_THROUGH: f64 = 5.0;
-/// A panel of fewer pixels counts as none in the cloud (docs/formats.md, "The figures of merit").
-const LEAST_SEEN_PX: f64 = 400.0;
-
-/// Whether a panel shows too little of itself to be seen, with nothing that the camera looked through.
-pub fn is_edge_on(sight: &Sight, body: &FittedBody, role: Role, model_m: f64) -> bool {
-    let looked = Sheet::new(body, role, &sight.eye).look(sight, model_m);
-    looked.met + looked.through < LEAST_SEEN_PX
-}
 
 /// The body with lids and their tuck flaps on sides that have no flap; `None` where none is found.
 pub fn with_edge_on_lids(

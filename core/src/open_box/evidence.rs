@@ -17,7 +17,15 @@ pub struct Evidence {
     pub is_inner: bool,
 }
 
+/// A panel of fewer pixels counts as none in the cloud (docs/formats.md, "The figures of merit").
+const LEAST_SEEN_PX: f64 = 400.0;
+
 impl Evidence {
+    /// Whether too little of the panel shows to be seen, and as little was looked through: it is turned its edge to the camera.
+    pub fn is_edge_on(&self) -> bool {
+        self.met + self.through < LEAST_SEEN_PX
+    }
+
     /// Of two views together.
     pub fn and(&self, other: &Self) -> Self {
         Self {

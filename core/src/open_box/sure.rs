@@ -1,6 +1,6 @@
 //! Which parts of a fitted body are sure enough to be told.
 
-use super::edge_on::is_edge_on;
+use super::evidence::Sheet;
 use super::grow::FINE_M;
 use super::labels::{Labels, Present};
 use super::lean::lean;
@@ -12,7 +12,7 @@ const MOST_LEAN: f64 = 0.35;
 /// Parts of fewer readings are not called seen.
 const LEAST_READINGS: usize = 120;
 
-/// Parts whose readings are few, or lie across them.
+/// Parts whose readings are few, or lie across them, and what hangs on a flap that has none though it would show.
 pub fn drop_unsure(sight: &Sight, body: &FittedBody, labels: &mut Labels) {
     let stride = labels.stride;
     for (role, points) in &mut labels.parts {
@@ -22,7 +22,8 @@ pub fn drop_unsure(sight: &Sight, body: &FittedBody, labels: &mut Labels) {
         }
     }
     for k in 0..4 {
-        if labels.of(Role::Flap(k)).is_empty() && !is_edge_on(sight, body, Role::Flap(k), FINE_M) {
+        let is_edge_on = || Sheet::new(body, Role::Flap(k), &sight.eye).look(sight, FINE_M).is_edge_on();
+        if labels.of(Role::Flap(k)).is_empty() && !labels.of(Role::Tuck(k)).is_empty() && !is_edge_on() {
             labels.clear(Role::Tuck(k));
         }
     }
