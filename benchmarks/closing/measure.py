@@ -32,7 +32,8 @@ def measure(problem: Problem, way: str, crease: str) -> Record:
     box = modelled_box(problem.box, problem.model.up, np.eye(4))
     simulation = simulate(plan, problem.model, crease=crease).simulation if plan.segments else None
     statuses = {name: flap.status for name, flap in plan.flaps.items()}
-    return _record(problem, way, crease, Seen(box, statuses, planning_s, simulation))
+    reasons = {name: flap.reason for name, flap in plan.flaps.items()}
+    return _record(problem, way, crease, Seen(box, statuses, reasons, planning_s, simulation))
 
 
 def limits(problem: Problem, planned: Sequence[str]) -> Limits:
@@ -54,6 +55,7 @@ def _record(problem: Problem, way: str, crease: str, seen: Seen) -> Record:
             status=seen.statuses.get(name, "not seen"),
             reached=_reached(run, name),
             held=run is not None and run.failure is None and run.flaps[name].held,
+            reason=seen.reasons.get(name),
         )
         for name, hinge in sorted(hinges.items())
         if abs(hinge.position_rad) > OPEN_RAD

@@ -23,6 +23,8 @@ class FlapRecord(msgspec.Struct, frozen=True):
     status: str
     reached: bool
     held: bool
+    reason: str | None = None
+    """Why there is no plan, in the planner's words; None where there is one."""
 
 
 class Record(msgspec.Struct, frozen=True):

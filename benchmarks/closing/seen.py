@@ -20,10 +20,12 @@ SAME_BOX_M = 0.2
 
 
 class Seen(msgspec.Struct, frozen=True, eq=False):
-    """The true box, its flaps named as the statuses name them; what was planned; what physics says of it, if it ran."""
+    """The true box, its flaps named as the statuses name them, with the reasons of what is not planned; what physics
+    says of it, if it ran."""
 
     box: BoardBox
     statuses: dict[str, str]
+    reasons: dict[str, str | None]
     planning_s: float
     simulation: Simulation | None
 
@@ -36,11 +38,12 @@ def close_seen(problem: Problem, robot: str, crease: str, settings: dict[str, An
     model = _inferred(cloud_of(frame))
     index = _nearest(model, base_from_input, box)
     if index is None:
-        return Seen(box, {}, 0.0, None)
+        return Seen(box, {}, {}, 0.0, None)
     plan = plan_closing(model, robot, base_from_input, object_index=index, settings=settings)
     statuses = {name: flap.status for name, flap in plan.flaps.items()}
+    reasons = {name: flap.reason for name, flap in plan.flaps.items()}
     if not plan.segments:
-        return Seen(_numbered_alike(box, model, index, base_from_input), statuses, plan.seconds, None)
+        return Seen(_numbered_alike(box, model, index, base_from_input), statuses, reasons, plan.seconds, None)
     staged = staged_plan(plan, model, frame.truth, crease=crease)
     if not again:
         staged.session.follow(plan.segments)
@@ -48,7 +51,9 @@ def close_seen(problem: Problem, robot: str, crease: str, settings: dict[str, An
         live = LiveBox(staged.session, base_from_input, staged.others, seed=1000 * (problem.number + 1))
         close_by_looking(model, robot, base_from_input, live, _inferred, object_index=index, settings=settings)
         statuses |= dict.fromkeys(live.pushed, "planned")
-    return Seen(staged.session.box, statuses, plan.seconds, run_of(staged.session, crease, staged.kind).simulation)
+        reasons |= dict.fromkeys(live.pushed)
+    simulation = run_of(staged.session, crease, staged.kind).simulation
+    return Seen(staged.session.box, statuses, reasons, plan.seconds, simulation)
 
 
 def _inferred(cloud: Cloud) -> Model:

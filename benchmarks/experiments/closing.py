@@ -9,6 +9,7 @@ import msgspec
 import numpy as np
 from benchmarks.closing.__main__ import record_of
 from benchmarks.closing.problems import COUNT, LATER_SEEDS, REPORT_SEED, SEED
+from benchmarks.closing.reasons import kind_of
 from benchmarks.closing.record import CREASES, WAYS, FlapRecord, Limits, Record, limits_path
 from benchmarks.experiments.lab import Lab
 from benchmarks.experiments.report import Cell, Report, Table
@@ -51,6 +52,7 @@ def report(found: list[Record], limits: dict[int, Limits]) -> Report:
     if limits:
         tables.insert(1, _of_feasible(found, limits))
         tables.insert(2, _feasible_boxes(found, limits))
+        tables.append(_reasons(found, limits))
     counts = {way: len({record.number for record in found if record.way == way}) for way in WAYS}
     told = ", ".join(f"{way} {count}" for way, count in counts.items() if count)
     how = (
@@ -164,6 +166,26 @@ def _feasible_boxes(found: list[Record], limits: dict[int, Limits]) -> Table:
         "all four held of those %",
     )  # fmt: skip
     return Table("Boxes whose four flaps can each be closed at all:", columns, rows)
+
+
+def _reasons(found: list[Record], limits: dict[int, Limits]) -> Table:
+    """Feasible flaps that are not held, by why, the commonest first."""
+    feasible, _ = _asked(found, limits)
+    creases = CREASES[:2]
+    counts: dict[str, list[int]] = {}
+    for record in found:
+        if record.way == WAYS[0] and record.crease in creases and record.number in limits:
+            for flap in record.flaps:
+                if feasible(record, flap) and not flap.held:
+                    counted = counts.setdefault(
+                        kind_of(flap.status, flap.reason, record.failure), [0] * (2 * len(creases))
+                    )
+                    counted[2 * creases.index(record.crease) + flap.farthest] += 1
+    rows: list[tuple[Cell, ...]] = [
+        (kind, *counted) for kind, counted in sorted(counts.items(), key=lambda row: (-sum(row[1]), row[0]))
+    ]
+    columns = ("why", *(f"{crease}: {which}" for crease in creases for which in ("near", "farthest")))
+    return Table("Feasible flaps that are not held at the end, layered planner:", columns, rows)
 
 
 def _by_size(found: list[Record]) -> Table:

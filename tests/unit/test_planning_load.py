@@ -14,7 +14,9 @@ from boxwright.types import Plan
 
 ROBOT = "viper_s850"
 LIGHT = (18, 156)
-"""Small boxes with short flaps that the arm reaches and that take more than holds the box: pushed, they slide."""
+"""Small boxes with short flaps that the arm reaches and that take more than holds the box."""
+SLIDING = ((1134, 54), (1134, 96), (1134, 107))
+"""By seed and number: boxes that slide far, and whose flaps stay open, where they are pushed regardless."""
 SMALL = 0
 """One none of whose flaps can be pushed where it weighs 0.2 kg."""
 
@@ -28,17 +30,19 @@ def _plan(problem: Problem, settings: dict[str, Any] | None = None) -> Plan:
 
 def test_a_flap_that_would_move_the_box_is_told_and_physics_agrees() -> None:
     counted = 0
-    for number in LIGHT:
-        problem = draw_problem(number)
+    for seed, number in SLIDING:
+        problem = draw_problem(number, seed)
         plan, regardless = _plan(problem, NO_FORK), _plan(problem, REGARDLESS)
         refused = [name for name, flap in plan.flaps.items() if flap.reason and "slide or tip" in flap.reason]
         assert all(plan.flaps[name].status == "blocked" for name in refused)
         careful, careless = (simulate(made, problem.model).simulation for made in (plan, regardless))
         assert all(careful.flaps[name].held for name in plan.order)
-        assert careful.box_slid_m < 0.005 < 0.008 < careless.box_slid_m
-        # What slides may close all the same, nearer to where the box stops.
-        counted += sum(not careless.flaps[name].held for name in refused if name in regardless.order)
-    assert counted == 3
+        assert careful.box_slid_m < 0.005 < 0.02 < careless.box_slid_m
+        for name in refused:
+            if name in regardless.order:
+                assert not careless.flaps[name].held, f"problem {number}: {name}"
+                counted += 1
+    assert counted >= 3
 
 
 def test_a_couple_turns_what_a_push_would_move_the_box_for() -> None:

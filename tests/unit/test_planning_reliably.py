@@ -25,7 +25,7 @@ OVER_OTHERS = (1129, 9, "flap_3")
 ON_STACKS = {(2013, 0): "flap_2"}
 """A flap that comes to lie on others that overlap, and springs back beyond what counts as closed by itself."""
 IN_TWO = (2011, 31, "flap_1")
-"""A flap that no push from the start closes."""
+"""A flap that no push from the start takes to closed and beyond."""
 
 SQUARELY = ((1133, 58, "ordinary"), (1133, 66, "pre_broken"))
 """Boxes of which a finger slipped off a flap's edge that it pressed aslant."""
@@ -33,11 +33,18 @@ BY_THE_BASE = (1133, 86, "flap_3")
 """A flap that would swing into the arm's base."""
 PRESSED_DOWN = (1133, 7)
 """Four long flaps of which each lies on others that spring up; those near its hinge are pressed down easily."""
+LEFT = (1134, 165, "flap_1")
+"""A flap of a high box, beside a tuck: after all others the widest search finds how."""
+BY_THE_TIP = (1134, 68, "flap_3")
+"""One that is held with the very tip alone, or near its hinge."""
 STRANDED = {7: 2, 12: 1, 13: 2, 25: 1}
 """By number: boxes of seed 2013, and to how many flaps an arm that knows straight lines alone finds no way."""
 
 STRAIGHT_ALONE = {"transit_tries": 0, "shortcuts": 0}
-WIDE = {"beams": [16, 50, 60]}
+# Not near its hinge, nor with the very tip.
+FIRMLY: dict[str, Any] = {"fine_contacts": {"least_lever": 0.2, "least_hook_m": 0.006, "most_lean": 0.95}}
+WIDE = {**FIRMLY, "beams": [16, 50, 60]}
+USUAL = {"beams": [16, 50]}
 PUSHED_HOME = {"least_lay_rad": 9.0}
 AT_ONE_GO = {"fork": {"most_stages": 1}}
 
@@ -77,10 +84,31 @@ def test_a_lid_over_short_flaps_is_let_go_where_it_comes_to_rest_closed() -> Non
     assert _all_held(seed, number, "pre_broken", plan)
 
 
+def test_what_all_else_leaves_open_is_searched_for_more_widely() -> None:
+    seed, number, name = LEFT
+    plan = _plan(seed, number, "ordinary")
+    without = _plan(seed, number, "ordinary", USUAL)
+    assert without.flaps[name].status == "blocked"
+    assert plan.order == (*without.order, name)
+    assert _keeps_clear(seed, number, plan)
+    assert _all_held(seed, number, "ordinary", plan)
+
+
+def test_a_flap_is_held_with_the_very_tip_where_nothing_else_reaches_it() -> None:
+    seed, number, name = BY_THE_TIP
+    plan = _plan(seed, number, "ordinary")
+    assert _plan(seed, number, "ordinary", FIRMLY).flaps[name].status == "blocked"
+    assert plan.flaps[name].status == "planned"
+    assert _keeps_clear(seed, number, plan)
+    assert _all_held(seed, number, "ordinary", plan)
+
+
 def test_a_second_push_closes_what_the_first_leaves_half_way() -> None:
     seed, number, name = IN_TWO
     plan = _plan(seed, number, "pre_broken")
-    assert _plan(seed, number, "pre_broken", AT_ONE_GO).flaps[name].status == "blocked"
+    rests_rad = [made.flaps[name].rest_rad for made in (plan, _plan(seed, number, "pre_broken", AT_ONE_GO))]
+    assert (rests_rad[0] or 0.0) < np.radians(5.0)
+    assert (rests_rad[1] or 0.0) > np.radians(10.0)
     pushes = [segment for segment in plan.segments if segment.kind == "push" and segment.flap == name]
     assert [segment.gripper_opening_m for segment in pushes] == [0.0, 0.0]
     assert _keeps_clear(seed, number, plan)

@@ -59,6 +59,8 @@ pub struct Closer<'a, G: Guard> {
     pub settings: &'a PlanningSettings,
     pub margins: &'a Margins,
     pub method: Method,
+    /// Only the first effort is made.
+    pub quick: bool,
     /// The flaps to close, by name; all that are open where there are none.
     pub only: &'a [String],
     /// Flaps that are not to be closed.

@@ -156,7 +156,7 @@ impl<G: Guard> Held<'_, G> {
         approach.reverse();
         let retreat = lines.draw_off(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after).ok()?;
         motion = PushMotion { approach, retreat, ..motion };
-        if comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) != (true, true) {
+        if !comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) {
             return None;
         }
         Some((motion, rest_rad))

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::time::Instant;
 
+use super::effort::Effort;
 use super::guard::Moment;
 use super::push::PushMotion;
 use super::reason::WhyNot;
@@ -14,8 +15,8 @@ pub type Tried = Result<PushMotion, WhyNot>;
 /// How hard a flap is pushed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Force {
-    /// With a reserve to what moves the box.
-    Careful,
+    /// With a reserve to what moves the box, searched for with this effort.
+    Careful(Effort),
     /// Without.
     Home,
 }
@@ -126,16 +127,17 @@ mod tests {
             assert!(tried.is_err());
         };
         let asked = [
-            (0, 0, 1.0, Force::Careful),
-            (1, 0, 1.0, Force::Careful),
-            (0, 1, 1.0, Force::Careful),
-            (0, 0, 1.5, Force::Careful),
+            (0, 0, 1.0, Force::Careful(Effort::Quick)),
+            (1, 0, 1.0, Force::Careful(Effort::Quick)),
+            (0, 1, 1.0, Force::Careful(Effort::Quick)),
+            (0, 0, 1.5, Force::Careful(Effort::Quick)),
+            (0, 0, 1.0, Force::Careful(Effort::Deep)),
         ];
         for (flap, widened, angle_rad, force) in asked.into_iter().chain([(0, 0, 1.0, Force::Home)]) {
             ask(flap, widened, angle_rad, force);
             ask(flap, widened, angle_rad, force);
         }
-        assert_eq!(planned.get(), 5);
+        assert_eq!(planned.get(), 6);
         assert!(known.seconds(0) > 0.0 && known.seconds(2) == 0.0);
     }
 }

@@ -10,6 +10,7 @@ mod beam;
 mod boards;
 mod closing;
 mod contact;
+mod effort;
 mod exhaustive;
 mod first_layer;
 mod flap;

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::closing::Closer;
+use super::effort::Effort;
 use super::guard::{Guard, Moment};
 use super::known::Tried;
 use super::push::PushMotion;
@@ -15,11 +16,23 @@ pub struct Ordered {
     pub why_not: Vec<(usize, WhyNot)>,
 }
 
+/// The order that closes most with the first effort; where that is not all, with a greater one, and then with the greatest for what is left.
+pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
+    let quick = with_effort(closer, open, angles_rad, Effort::Quick);
+    if quick.why_not.is_empty() || closer.quick {
+        return quick;
+    }
+    let mut ordered = with_effort(closer, open, angles_rad, Effort::Thorough);
+    add_left(closer, &mut ordered, angles_rad);
+    ordered
+}
+
 /// Depth first over orders, the likeliest first, each push planned once for each set of flaps closed before it. The first order that
 /// closes all ends the search; else the first of those that close most.
-pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
+fn with_effort<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64], effort: Effort) -> Ordered {
     let mut search = Search {
         closer,
+        effort,
         known: HashMap::new(),
         best: Vec::new(),
         wanted: open.len(),
@@ -37,18 +50,20 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
     }
     let left = ranked.iter().filter(|flap| !best.contains(flap));
     let why_not = left.filter_map(|&flap| Some((flap, search.why_not(flap, &best)?))).collect();
-    let mut ordered = Ordered { order: best, pushes, why_not };
-    add_sliding(closer, &mut ordered, angles_rad);
-    ordered
+    Ordered { order: best, pushes, why_not }
 }
 
-/// Puts last what may move the box, so that no other flap is missed for it; then what only that kept open.
-fn add_sliding<G: Guard>(closer: &Closer<'_, G>, ordered: &mut Ordered, angles_rad: &[f64]) {
+/// Adds what the greatest effort closes; puts last what may move the box, so that no other flap is missed for it; after each what only
+/// that kept open.
+fn add_left<G: Guard>(closer: &Closer<'_, G>, ordered: &mut Ordered, angles_rad: &[f64]) {
     let mut angles_rad = angles_rad.to_vec();
     for (&flap, push) in ordered.order.iter().zip(&ordered.pushes) {
         angles_rad[flap] = closer.rest_rad(flap, push);
     }
-    while let Some((place, push)) = ordered.first_sliding(closer, &angles_rad) {
+    let mut asked = Vec::new();
+    while let Some((place, push)) =
+        ordered.first_deep(closer, &angles_rad, &mut asked).or_else(|| ordered.first_sliding(closer, &angles_rad))
+    {
         ordered.add(closer, place, push, &mut angles_rad);
         while let Some((place, push)) = ordered.first_freed(closer, &angles_rad) {
             ordered.add(closer, place, push, &mut angles_rad);
@@ -57,6 +72,23 @@ fn add_sliding<G: Guard>(closer: &Closer<'_, G>, ordered: &mut Ordered, angles_r
 }
 
 impl Ordered {
+    /// Of the flaps left, where the first is that closes with the greatest effort, and its push; each is `asked` about once.
+    fn first_deep<G: Guard>(
+        &self,
+        closer: &Closer<'_, G>,
+        angles_rad: &[f64],
+        asked: &mut Vec<usize>,
+    ) -> Option<(usize, PushMotion)> {
+        let moment = Moment::resting(angles_rad);
+        self.why_not.iter().enumerate().find_map(|(place, &(flap, ref why))| {
+            if !why.searched || asked.contains(&flap) {
+                return None;
+            }
+            asked.push(flap);
+            Some((place, closer.push(flap, &moment, Effort::Deep).ok()?))
+        })
+    }
+
     /// Of the flaps left, where the first is that closes if the box may move, and its push.
     fn first_sliding<G: Guard>(&self, closer: &Closer<'_, G>, angles_rad: &[f64]) -> Option<(usize, PushMotion)> {
         let moment = Moment::resting(angles_rad);
@@ -68,7 +100,7 @@ impl Ordered {
     fn first_freed<G: Guard>(&self, closer: &Closer<'_, G>, angles_rad: &[f64]) -> Option<(usize, PushMotion)> {
         let moment = Moment::resting(angles_rad);
         let mut kept = self.why_not.iter().enumerate().filter(|(_, (_, why))| why.by_flaps);
-        kept.find_map(|(place, &(flap, _))| Some((place, closer.push(flap, &moment).ok()?)))
+        kept.find_map(|(place, &(flap, _))| Some((place, closer.push(flap, &moment, Effort::Thorough).ok()?)))
     }
 
     fn add<G: Guard>(&mut self, closer: &Closer<'_, G>, place: usize, push: PushMotion, angles_rad: &mut [f64]) {
@@ -87,7 +119,7 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
     let mut angles_rad = angles_rad.to_vec();
     let mut found = Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new() };
     for flap in ranked {
-        match closer.push(flap, &Moment::resting(&angles_rad)) {
+        match closer.push(flap, &Moment::resting(&angles_rad), Effort::Quick) {
             Ok(push) => {
                 angles_rad[flap] = closer.rest_rad(flap, &push);
                 found.order.push(flap);
@@ -116,6 +148,7 @@ fn likeliest_first<G: Guard>(closer: &Closer<'_, G>, open: &[usize]) -> Vec<usiz
 
 struct Search<'a, 'b, G: Guard> {
     closer: &'a Closer<'b, G>,
+    effort: Effort,
     known: HashMap<(usize, u32), Tried>,
     best: Vec<usize>,
     wanted: usize,
@@ -176,7 +209,7 @@ impl<G: Guard> Search<'_, '_, G> {
         }
         let key = (flap, closed_set(before));
         if !self.known.contains_key(&key) {
-            let tried = self.closer.push(flap, &Moment::resting(angles_rad));
+            let tried = self.closer.push(flap, &Moment::resting(angles_rad), self.effort);
             if let Err(why) = &tried {
                 self.searches[flap] += usize::from(why.searched);
                 if !why.by_flaps || self.searches[flap] >= MOST_SEARCHES {

@@ -1,6 +1,7 @@
 //! One flap's push: the layered search's path made smooth and dense, with the ways to it and away from it.
 
 use std::cell::Cell;
+use std::ops::Range;
 
 use nalgebra::UnitQuaternion;
 
@@ -41,6 +42,8 @@ pub struct Pusher<'a, G: Guard> {
     pub guard: &'a G,
     pub settings: &'a PlanningSettings,
     pub contacts: Contacts<'a>,
+    /// Which of the settings' searches are made, one after the other.
+    pub searches: Range<usize>,
     /// The greatest share of what moves the box that the push may be.
     pub most_strain: f64,
     pub flap: usize,
@@ -76,7 +79,7 @@ impl<G: Guard> Pusher<'_, G> {
         let fine = self.contacts.finer(&fine_settings);
         self.guard.explain_anew();
         let mut why = None;
-        for (k, &beam) in self.settings.beams.iter().enumerate() {
+        for (k, &beam) in self.settings.beams.iter().enumerate().filter(|(k, _)| self.searches.contains(k)) {
             if search.is_caught() {
                 break;
             }
@@ -86,15 +89,7 @@ impl<G: Guard> Pusher<'_, G> {
                 Err(found) => why = Some(found),
             }
         }
-        Err(why.unwrap_or(WhyNot {
-            status: Status::OutOfTime,
-            reason: "no search was allowed".into(),
-            by_flaps: false,
-            at_start: false,
-            at_rad: None,
-            moves_box: false,
-            searched: true,
-        }))
+        Err(why.unwrap_or_else(WhyNot::not_searched))
     }
 
     /// Where the flaps are during the push: those that are closed already give way to the one that comes to lie on them.

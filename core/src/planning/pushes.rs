@@ -1,8 +1,11 @@
 //! One flap's closing while the others stand as they do: a push, or what turns it first and then a push.
 
+use std::ops::Range;
+
 use super::boards::met;
 use super::closing::Closer;
 use super::contact::Contacts;
+use super::effort::{Effort, USUAL};
 use super::guard::{Guard, Moment};
 use super::known::{Force, Tried};
 use super::orientations::OrientationGrid;
@@ -16,15 +19,23 @@ use super::settings::PlanningSettings;
 const LATE_RAD: f64 = 0.8;
 
 impl<G: Guard> Closer<'_, G> {
-    /// One flap's push while the others stand as they do.
+    /// One flap's push while the others stand as they do, with as much effort as it takes up to this one.
     ///
     /// # Errors
     /// The status and the reason why there is none.
-    pub fn push(&self, flap: usize, moment: &Moment) -> Tried {
-        self.margins.push(flap, moment, Force::Careful, || self.push_anew(flap, moment))
+    pub fn push(&self, flap: usize, moment: &Moment, effort: Effort) -> Tried {
+        let mut tried = Err(WhyNot::not_searched());
+        for effort in effort.up_to() {
+            let plan = || self.push_anew(flap, moment, effort);
+            tried = self.margins.push(flap, moment, Force::Careful(effort), plan);
+            if tried.as_ref().map_or_else(|why| !why.searched, |_| true) {
+                break;
+            }
+        }
+        tried
     }
 
-    fn push_anew(&self, flap: usize, moment: &Moment) -> Tried {
+    fn push_anew(&self, flap: usize, moment: &Moment, effort: Effort) -> Tried {
         if self.method == Method::Paper {
             return self.paper_push(flap, moment);
         }
@@ -36,22 +47,32 @@ impl<G: Guard> Closer<'_, G> {
             return Err(WhyNot { by_flaps: false, ..WhyNot::by_boards(&obstacle) });
         }
         let strain = self.load.worst_strain(self.problem, flap);
-        if strain <= self.settings.fork.least_strain {
-            let pushed = self.careful_push(flap, moment, hold_rad);
+        // A box that a push nearly moves is moved by many: rather by a couple.
+        let is_safe = strain <= self.settings.fork.least_strain;
+        if effort == Effort::Deep && strain > self.settings.most_strain.max(1.0) {
+            return Err(WhyNot::moving());
+        }
+        if is_safe || effort == Effort::Deep {
+            let pushed = self.careful_push(flap, moment, hold_rad, effort.searches());
+            if effort != Effort::Thorough {
+                return pushed;
+            }
             let pushed = pushed.or_else(|why| self.fork_and_push(flap, moment, hold_rad, why));
             return pushed.or_else(|why| self.in_two_pushes(flap, moment, hold_rad, why));
         }
-        // A box that a push nearly moves is moved by many: rather by a couple.
+        if effort == Effort::Quick {
+            return Err(WhyNot::moving());
+        }
         match self.fork_and_push(flap, moment, hold_rad, WhyNot::moving()) {
-            Err(_) if strain <= self.settings.most_strain.max(1.0) => self.careful_push(flap, moment, hold_rad),
+            Err(_) if strain <= self.settings.most_strain.max(1.0) => self.careful_push(flap, moment, hold_rad, USUAL),
             tried => tried,
         }
     }
 
     /// A push with a reserve to what moves the box.
-    fn careful_push(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Tried {
+    fn careful_push(&self, flap: usize, moment: &Moment, hold_rad: f64, searches: Range<usize>) -> Tried {
         let most_strain = self.settings.most_strain;
-        let pushed = |to_rad: f64| self.pusher(flap, moment, to_rad, most_strain).plan();
+        let pushed = |to_rad: f64| self.pusher(flap, moment, to_rad, most_strain, searches.clone()).plan();
         let short_rad = self.settings.short_on_others_rad;
         match pushed(hold_rad) {
             // Arms that cannot follow the flap beyond closed may still lay it down.
@@ -84,8 +105,8 @@ impl<G: Guard> Closer<'_, G> {
         let first = self.turned_down(flap, moment, why.by_flaps).ok_or(WhyNot { by_flaps: true, ..why })?;
         let rest_rad = first.last().map_or(moment.angles_rad[flap], |(_, rest_rad)| *rest_rad);
         let turned = moment.left(flap, rest_rad);
-        let push = self.careful_push(flap, &turned, hold_rad);
-        let push = push.or_else(|_| self.pusher(flap, &turned, hold_rad, f64::INFINITY).plan())?;
+        let push = self.careful_push(flap, &turned, hold_rad, USUAL);
+        let push = push.or_else(|_| self.pusher(flap, &turned, hold_rad, f64::INFINITY, USUAL).plan())?;
         Ok(PushMotion { first: first.into_iter().map(|(motion, _)| motion).collect(), ..push })
     }
 
@@ -97,7 +118,7 @@ impl<G: Guard> Closer<'_, G> {
             return None;
         }
         let most_strain = if is_low { f64::INFINITY } else { 1.0 };
-        let plan = || self.pusher(flap, moment, hold_rad, most_strain).plan();
+        let plan = || self.pusher(flap, moment, hold_rad, most_strain, USUAL).plan();
         self.margins.push(flap, moment, Force::Home, plan).ok()
     }
 
@@ -120,7 +141,14 @@ impl<G: Guard> Closer<'_, G> {
         self.margins.settings_of(flap).unwrap_or(self.settings)
     }
 
-    pub fn pusher(&self, flap: usize, moment: &Moment, hold_rad: f64, most_strain: f64) -> Pusher<'_, G> {
+    pub fn pusher(
+        &self,
+        flap: usize,
+        moment: &Moment,
+        hold_rad: f64,
+        most_strain: f64,
+        searches: Range<usize>,
+    ) -> Pusher<'_, G> {
         let settings = self.settings_of(flap);
         let half_board_m = self.problem.thickness_m / 2.0;
         Pusher {
@@ -135,6 +163,7 @@ impl<G: Guard> Closer<'_, G> {
                 (self.load.folds[flap], self.load.stand.as_ref()),
                 OrientationGrid::coarse(),
             ),
+            searches,
             most_strain,
             flap,
             moment: moment.clone(),
@@ -145,7 +174,7 @@ impl<G: Guard> Closer<'_, G> {
 
     /// The paper's push, to closed and no further.
     fn paper_push(&self, flap: usize, moment: &Moment) -> Tried {
-        let pusher = self.pusher(flap, moment, 0.0, f64::INFINITY);
+        let pusher = self.pusher(flap, moment, 0.0, f64::INFINITY, USUAL);
         PlanesSearch { pusher: &pusher, settings: self.settings_of(flap) }.plan()
     }
 }

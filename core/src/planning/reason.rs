@@ -144,6 +144,19 @@ impl WhyNot {
         }
     }
 
+    /// No search was made.
+    pub fn not_searched() -> Self {
+        Self {
+            status: Status::OutOfTime,
+            reason: "no search was allowed".into(),
+            by_flaps: false,
+            at_start: false,
+            at_rad: None,
+            moves_box: false,
+            searched: true,
+        }
+    }
+
     /// Boards are in the way, whatever the arm does.
     pub fn by_boards(obstacle: &Obstacle) -> Self {
         let reason = obstacle.to_string();

@@ -47,7 +47,7 @@ pub struct Request {
     /// Flaps that were closed before and rest where they were let go.
     #[serde(default)]
     pub closed: Vec<String>,
-    /// Makes the first of the settings' searches alone: mostly enough to say which flaps can be closed.
+    /// Makes the first effort alone: what it closes, a plan without this closes too.
     #[serde(default)]
     pub quick: bool,
 }
@@ -76,11 +76,7 @@ impl Request {
     /// Where there is nothing to close, or where the arm's base stands inside the box.
     pub fn plan(self, arm: &Arm) -> Result<Answer> {
         let mut problem = self.measured.into_problem()?;
-        let mut settings = self.settings;
-        if self.quick {
-            settings.beams.truncate(1);
-        }
-        let settings = &settings;
+        let settings = &self.settings;
         let load = Load::of(&problem, &settings.assumed);
         for (flap, fold) in problem.flaps.iter_mut().zip(&load.folds).filter(|(f, _)| self.closed.contains(&f.name)) {
             flap.position_rad = fold.rest_rad(0.0).min(settings.closed_rad);
@@ -101,6 +97,7 @@ impl Request {
                 settings,
                 margins: &margins,
                 method: self.method,
+                quick: self.quick,
                 only: &self.only,
                 left_open: &left,
             };

@@ -66,7 +66,7 @@ impl<G: Guard> Search<'_, '_, G> {
         Err(pusher.why_stuck(self.angles_rad[layer], layer == 0, &tally))
     }
 
-    fn comes_and_goes(&self, motion: &PushMotion) -> (bool, bool) {
+    fn comes_and_goes(&self, motion: &PushMotion) -> bool {
         let Pusher { arm, guard, settings, .. } = self.pusher;
         comes_and_goes(arm, *guard, settings, motion, (&self.before, &self.after))
     }
@@ -84,18 +84,16 @@ impl<G: Guard> Search<'_, '_, G> {
         };
         let mut tally = Tally::default();
         self.pusher.guard.explain_anew();
-        let mut caught: Vec<(PushMotion, bool)> = Vec::new();
+        let mut caught: Vec<PushMotion> = Vec::new();
         for path in &paths {
             // Another turn of the wrist does not lead out of where the arm is caught.
-            if caught.iter().any(|(motion, _)| is_alike(motion, path)) {
+            if caught.iter().any(|motion| is_alike(motion, path)) {
                 continue;
             }
             let (first, last) = ((&self.touching, &self.before), (&self.held, &self.after));
             match self.pusher.dense(layers, path, &self.lines, first, last) {
-                Ok(motion) => match self.comes_and_goes(&motion) {
-                    (true, true) => return Ok(motion),
-                    (_, goes) => caught.push((motion, goes)),
-                },
+                Ok(motion) if self.comes_and_goes(&motion) => return Ok(motion),
+                Ok(motion) => caught.push(motion),
                 Err(obstacle) => tally.add(obstacle),
             }
             if caught.len() > MOST_CAUGHT || self.caught.get() + caught.len() > MOST_CAUGHT_IN_ALL {
@@ -105,10 +103,6 @@ impl<G: Guard> Search<'_, '_, G> {
         self.caught.set(self.caught.get() + caught.len());
         if !caught.is_empty() {
             tally.add(CAUGHT);
-        }
-        // Too few tries prove nothing; but an arm that is caught after a push pushes no other.
-        if let Some((motion, _)) = caught.into_iter().find(|(_, goes)| *goes) {
-            return Ok(motion);
         }
         Err((self.angles_rad.len() - 1, tally))
     }
@@ -121,18 +115,17 @@ pub fn comes_and_goes<G: Guard>(
     settings: &PlanningSettings,
     motion: &PushMotion,
     (before, after): (&Moment, &Moment),
-) -> (bool, bool) {
+) -> bool {
     let settings = PlanningSettings { transit_tries: CAUGHT_TRIES, ..settings.clone() };
     let leads = |end: Option<&JointPositions>, moment: &Moment| {
         let transit = Transit { arm, guard, settings: &settings, moment, step_rad: settings.joint_step_rad };
         end.is_some_and(|end| transit.is_connected(end, &arm.ready))
     };
-    let goes = leads(motion.retreat.last(), after);
-    (goes && leads(motion.approach.first(), before), goes)
+    leads(motion.retreat.last(), after) && leads(motion.approach.first(), before)
 }
 
-/// How hard it is tried to get out of where a motion ends, and how many paths are given up for it.
-const CAUGHT_TRIES: usize = 250;
+/// How hard it is tried to get out of where a motion ends, and how many paths are given up for it, in one search and in all.
+const CAUGHT_TRIES: usize = 1000;
 const MOST_CAUGHT: usize = 2;
 const MOST_CAUGHT_IN_ALL: usize = 4;
 

@@ -45,7 +45,7 @@ pub struct PlanningSettings {
     pub layer_rad: f64,
     /// Between two samples of a push, at most.
     pub sample_rad: f64,
-    /// States kept in each layer: a first try, and one among finer contacts where it fails.
+    /// States kept in each layer: a first try, one among finer contacts where it fails, and one for what all else leaves open.
     pub beams: Vec<usize>,
     /// Between contacts along and across a flap, and how many of them at most.
     pub contact_step_m: f64,
@@ -101,6 +101,7 @@ pub struct FineContacts {
     /// The finger may stand over an end of the flap, or over its free edge, as far as it presses on it squarely enough.
     pub contact_inset_m: f64,
     pub contact_beyond_m: f64,
+    /// Near the hinge, too, as far as the box bears what a push takes there; and hooked with the very tip.
     pub least_lever: f64,
     pub most_lean: f64,
     pub least_hook_m: f64,
@@ -165,9 +166,9 @@ impl Default for FineContacts {
             most_contacts: [13, 9],
             contact_inset_m: -0.008,
             contact_beyond_m: 0.006,
-            least_lever: 0.2,
-            most_lean: 0.95,
-            least_hook_m: 0.006,
+            least_lever: 0.06,
+            most_lean: 0.99,
+            least_hook_m: 0.003,
         }
     }
 }
@@ -212,7 +213,7 @@ impl Default for PlanningSettings {
             fork: ForkSettings::default(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
-            beams: vec![16, 50],
+            beams: vec![16, 50, 150],
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,
@@ -230,7 +231,7 @@ impl Default for PlanningSettings {
             slide_off_m: 0.15,
             line_step_m: 0.005,
             joint_step_rad: 0.05,
-            transit_tries: 4000,
+            transit_tries: 1000,
             transit_seed: 0x2011,
             shortcuts: 60,
             free_share: 0.8,

@@ -1,6 +1,7 @@
 //! Turns a flap down in stages, each from where the one before leaves it: with the fingers astride it, pushed part of the way.
 
 use super::closing::Closer;
+use super::effort::{FIRST, USUAL};
 use super::fork::Fork;
 use super::guard::{Guard, Moment};
 use super::known::Tried;
@@ -34,7 +35,7 @@ impl<G: Guard> Closer<'_, G> {
             let turned = moment.left(flap, rest_rad);
             // It does not come to rest exactly there: a finger that comes along the board would catch on it.
             let lifted = PlanningSettings { slide_off_m: 0.0, ..self.settings_of(flap).clone() };
-            let pusher = self.pusher(flap, &turned, hold_rad, settings.most_strain);
+            let pusher = self.pusher(flap, &turned, hold_rad, settings.most_strain, USUAL);
             let home = Pusher { settings: &lifted, ..pusher }.plan();
             return home.map(|push| PushMotion { first: vec![motion], ..push }).map_err(|_| why);
         }
@@ -95,12 +96,9 @@ impl<G: Guard> Closer<'_, G> {
 
     /// Pushed to an angle with a reserve to what moves the box; one search alone.
     fn pushed_to(&self, flap: usize, moment: &Moment, to_rad: f64) -> Option<Stage> {
-        let settings = self.settings_of(flap);
-        let settings =
-            PlanningSettings { beams: settings.beams[..settings.beams.len().min(1)].to_vec(), ..settings.clone() };
-        let pusher = self.pusher(flap, moment, to_rad, settings.most_strain);
+        let pusher = self.pusher(flap, moment, to_rad, self.settings.most_strain, FIRST);
         let rest_rad = self.load.folds[flap].rest_rad(to_rad);
-        let motion = Pusher { settings: &settings, rest_rad, ..pusher }.plan().ok()?;
+        let motion = Pusher { rest_rad, ..pusher }.plan().ok()?;
         Some((motion, rest_rad))
     }
 }

@@ -41,23 +41,22 @@ impl<G: Guard> Transit<'_, G> {
 
     fn leg(&self, from: &JointPositions, to: &JointPositions, via: &JointPositions) -> Option<Vec<JointPositions>> {
         // Fine steps take long and are seldom needed: a way found with coarse ones is looked at again with fine ones.
-        FINER
-            .into_iter()
-            .find_map(|finer| {
-                let search = Self { step_rad: self.step_rad / finer, ..*self };
-                let way = search.any_way(from, to, via)?;
-                let fine = Self { step_rad: self.step_rad / AGAIN, ..*self };
-                let is_clear = |way: &[JointPositions]| way.windows(2).all(|pair| fine.is_clear(&pair[0], &pair[1]));
-                // Shortcuts lead nearer to things than what they cut short.
-                let short = search.shortened(way.clone());
-                [short, way].into_iter().find(|way| is_clear(way))
-            })
-            .map(|mut way| {
+        for finer in FINER {
+            let search = Self { step_rad: self.step_rad / finer, ..*self };
+            // Where coarse steps find nothing, finer ones, which see more that is in the way, do not either.
+            let way = search.any_way(from, to, via)?;
+            let fine = Self { step_rad: self.step_rad / AGAIN, ..*self };
+            let is_clear = |way: &[JointPositions]| way.windows(2).all(|pair| fine.is_clear(&pair[0], &pair[1]));
+            // Shortcuts lead nearer to things than what they cut short.
+            let short = search.shortened(way.clone());
+            if let Some(mut way) = [short, way].into_iter().find(|way| is_clear(way)) {
                 // Leaving out nodes that are one but for rounding may have left out an end.
                 let last = way.len() - 1;
                 (way[0], way[last]) = (*from, *to);
-                way
-            })
+                return Some(way);
+            }
+        }
+        None
     }
 
     /// Is any way found from one to the other, looked at in the settings' steps alone?
