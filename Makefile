@@ -83,7 +83,7 @@ fuzz: ## Each reader's fuzz target for SECONDS (needs nightly Rust and cargo-fuz
 WEIGHTS := src/boxwright/models/weights
 SETS := out/sets
 
-weights: setup ## Make the training frames and learn the shipped weights anew (about 10 minutes)
+weights: setup ## Make the training frames and learn the shipped weights anew (about two hours)
 	$(BIN)/boxwright synth $(SETS)/train --count 180 --seed 1
 	$(BIN)/boxwright synth $(SETS)/train_none --count 30 --seed 2 --category none
 	$(MAKE) --no-print-directory weights-of PLANES=grid
@@ -121,23 +121,32 @@ weights-fitted:
 		--method exact -o $(WEIGHTS)/exact/tote.json
 	$(BIN)/boxwright synth $(SETS)/judge --count 360 --seed 503
 	$(BIN)/boxwright synth $(SETS)/judge_none --count 160 --seed 504 --category none
-	$(BIN)/boxwright synth $(SETS)/judge_2 --count 180 --seed 505
+	$(BIN)/boxwright synth $(SETS)/judge_2 --count 360 --seed 505
 	$(BIN)/boxwright synth $(SETS)/judge_none_2 --count 107 --seed 506 --category none
 	$(BIN)/boxwright synth $(SETS)/upright --count 120 --seed 509 --category upright
 	$(BIN)/boxwright synth $(SETS)/part_shut --count 120 --seed 510 --category part_shut
 	$(BIN)/boxwright synth $(SETS)/lying --count 120 --seed 511 --category lying
+	$(BIN)/boxwright synth $(SETS)/judge_3 --count 240 --seed 8001
+	$(BIN)/boxwright synth $(SETS)/judge_4 --count 240 --seed 8101
+	$(BIN)/boxwright synth $(SETS)/judge_5 --count 240 --seed 8201
+	$(BIN)/boxwright synth $(SETS)/judge_none_3 --count 200 --seed 8002 --category none
+	$(BIN)/boxwright synth $(SETS)/judge_none_4 --count 200 --seed 8102 --category none
+	$(BIN)/boxwright synth $(SETS)/judge_upright --count 60 --seed 8203 --category upright --boxes 1
+	$(BIN)/boxwright synth $(SETS)/judge_closed --count 60 --seed 8206 --category closed
+	$(BIN)/boxwright synth $(SETS)/judge_lying --count 60 --seed 8205 --category lying --boxes 1
 	$(BIN)/boxwright train $(SETS)/judge $(SETS)/judge_none $(SETS)/judge_2 $(SETS)/judge_none_2 $(SETS)/upright $(SETS)/part_shut \
-		--lying $(SETS)/lying --method fitted -o $(WEIGHTS)/fitted/judgement.json
+		$(SETS)/judge_3 $(SETS)/judge_4 $(SETS)/judge_5 $(SETS)/judge_none_3 $(SETS)/judge_none_4 $(SETS)/judge_upright \
+		$(SETS)/judge_closed --lying $(SETS)/lying --lying $(SETS)/judge_lying --method fitted -o $(WEIGHTS)/fitted/judgement.json
 	$(BIN)/python -m benchmarks.kinds $(SETS)/judge $(SETS)/totes --learn $(WEIGHTS)/fitted/kinds.json
 	$(BIN)/python -m benchmarks.coverage $(SETS)/judge --scales
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, 60 upright, 60 half shut, 60 on a side, 60 closed, and 200 and 60 without an open box)
-	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 8201
-	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 8202 --category none
-	$(BIN)/boxwright synth $(SETS)/boxes_upright --count 60 --seed 8203 --category upright --boxes 1
-	$(BIN)/boxwright synth $(SETS)/boxes_part_shut --count 60 --seed 8204 --category part_shut --boxes 1
-	$(BIN)/boxwright synth $(SETS)/boxes_lying --count 60 --seed 8205 --category lying --boxes 1
-	$(BIN)/boxwright synth $(SETS)/boxes_closed --count 60 --seed 8206 --category closed
+	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 8301
+	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 8302 --category none
+	$(BIN)/boxwright synth $(SETS)/boxes_upright --count 60 --seed 8303 --category upright --boxes 1
+	$(BIN)/boxwright synth $(SETS)/boxes_part_shut --count 60 --seed 8304 --category part_shut --boxes 1
+	$(BIN)/boxwright synth $(SETS)/boxes_lying --count 60 --seed 8305 --category lying --boxes 1
+	$(BIN)/boxwright synth $(SETS)/boxes_closed --count 60 --seed 8306 --category closed
 	$(BIN)/boxwright evaluate $(SETS)/boxes_closed --template closed_carton -o out/boxes_closed.json
 	for set in boxes_upright boxes_part_shut boxes_lying; do $(BIN)/boxwright evaluate $(SETS)/$$set -o out/$$set.json; done
 	for method in fitted exact paper; do \

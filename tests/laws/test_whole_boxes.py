@@ -126,11 +126,12 @@ def test_a_flap_is_found_whose_hinge_is_hidden_and_which_no_line_of_sight_runs_a
     assert len(near_two) == 1, found
 
 
-def test_a_box_is_finished_anew_from_where_it_has_come_to() -> None:
-    """Finished once this box, which shows two flaps (one of 601 readings) and a tuck flap, was not told at all."""
-    (found,) = boxwright.infer(cloud_of(make_frame("cake", 501, 178))).model.objects
-    assert max(_positions_deg(found, "flap")) == pytest.approx(79.0, abs=6.0)
-    assert _positions_deg(found, "tuck") == pytest.approx([-7.0], abs=6.0)
+@pytest.mark.parametrize(("index", "flaps_deg", "tuck_deg"), [(28, [13, 116, 204], 6), (100, [35, 174], 99)])
+def test_a_box_is_finished_anew_from_where_it_has_come_to(index: int, flaps_deg: list[int], tuck_deg: int) -> None:
+    """Finished once, each of these boxes has no tuck flap."""
+    objects = boxwright.infer(cloud_of(make_frame("cake", 501, index))).model.objects
+    found = [sorted(_positions_deg(one, "flap")) + _positions_deg(one, "tuck") for one in objects]
+    assert any(one == pytest.approx([*flaps_deg, tuck_deg], abs=6.0) for one in found), found
 
 
 def test_a_tuck_flap_is_found_where_its_flap_was_followed_beyond_the_crease() -> None:
@@ -172,6 +173,15 @@ def test_a_lid_that_is_seen_from_its_edge_is_told_by_its_tuck_flap(
     assert np.degrees(joint.position) == pytest.approx(lid_deg, abs=8.0)
 
 
+def test_a_flap_whose_hinge_is_hidden_is_found_by_its_segment() -> None:
+    """The flap across the box stands before it: what shows of it begins far above its hinge."""
+    objects = boxwright.infer(cloud_of(make_frame("carton", 8201, 33))).model.objects
+    (found,) = objects
+    seen = {part.name for part in found.parts if part.observed}
+    angles_deg = [np.degrees(joint.position) for joint in found.joints if joint.child in seen]
+    assert sorted(angles_deg) == pytest.approx([72.0, 92.0, 115.0, 226.0], abs=6.0)
+
+
 @pytest.mark.parametrize("index", [32, 44])
 def test_a_box_is_found_that_only_an_assignment_of_its_segments_proposes(index: int) -> None:
     """Walls, lids and rims propose bodies that rank below others; the best assignment (eq. 1) starts near."""
@@ -182,7 +192,7 @@ def test_a_box_is_found_that_only_an_assignment_of_its_segments_proposes(index: 
     assert all(box.object is not None for box in score.boxes)
 
 
-@pytest.mark.parametrize("index", [0, 2, 8])
+@pytest.mark.parametrize("index", [2, 16])
 def test_sides_end_where_slots_between_upright_flaps_begin(index: int) -> None:
     """To planes each flap is its side, higher: without the slots each of these is told as higher, without flaps."""
     frame = make_frame("upright", 12, index, boxes=1)

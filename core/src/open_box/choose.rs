@@ -22,11 +22,11 @@ const INSTEAD: usize = 2;
 const NEARLY: f64 = 0.9;
 
 /// The set of boxes that leave each other's readings alone and rank highest together, best first.
-pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<Chosen> {
+pub fn choose(found: &[FoundBox], width: usize) -> Vec<Chosen> {
     let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref()) * one.probability;
-    let mut found: Vec<FoundBox> = found.into_iter().filter(|one| one.score > LEAST_SCORE).collect();
+    let mut found: Vec<&FoundBox> = found.iter().filter(|one| one.score > LEAST_SCORE).collect();
     found.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
-    let ranks: Vec<f64> = found.iter().map(rank).collect();
+    let ranks: Vec<f64> = found.iter().map(|one| rank(one)).collect();
     let cells: Vec<Vec<u32>> = found.iter().map(|one| cells(one, width)).collect();
     let excludes = |a: usize, b: usize| SHARED * shared(&cells[a], &cells[b]) > cells[a].len().min(cells[b].len());
     let chosen = heaviest(&ranks, &excludes);
@@ -38,7 +38,7 @@ pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<Chosen> {
     let instead = |number: usize| {
         let mut kept: Vec<usize> = Vec::new();
         for other in (0..found.len()).filter(|&other| takes_place(other, number)) {
-            let is_new = std::iter::once(&number).chain(&kept).all(|&one| !is_same(&found[one], &found[other]));
+            let is_new = std::iter::once(&number).chain(&kept).all(|&one| !is_same(found[one], found[other]));
             if is_new && kept.len() < INSTEAD {
                 kept.push(other);
             }
@@ -49,8 +49,8 @@ pub fn choose(found: Vec<FoundBox>, width: usize) -> Vec<Chosen> {
     let with_rivals = |one: &FoundBox, rivals: usize| FoundBox { rivals, ..one.clone() };
     let of = |&number: &usize| {
         let (count, others) = (rivals(number), instead(number));
-        let instead = others.iter().map(|&other| with_rivals(&found[other], count)).collect();
-        Chosen { one: with_rivals(&found[number], count), instead }
+        let instead = others.iter().map(|&other| with_rivals(found[other], count)).collect();
+        Chosen { one: with_rivals(found[number], count), instead }
     };
     chosen.iter().map(of).collect()
 }

@@ -7,6 +7,7 @@ use super::grow::{FoundBox, FINE_M};
 use super::lean::lean;
 use super::owners::Owners;
 use super::rims;
+use super::settle::lowest_m;
 use super::sight::Sight;
 use super::upright::lies;
 use crate::fit::{layout, lid_length_m, FittedBody, Role};
@@ -15,7 +16,7 @@ use crate::fit::{layout, lid_length_m, FittedBody, Role};
 pub type Features = Vec<(&'static str, f64)>;
 
 /// Their names, in order.
-pub const BOX_FEATURES: [&str; 29] = [
+pub const BOX_FEATURES: [&str; 34] = [
     "one",
     "on_walls",
     "on_inner_faces",
@@ -45,8 +46,13 @@ pub const BOX_FEATURES: [&str; 29] = [
     "sides_go_on",
     "assignment",
     "lies",
+    "range",
+    "off_support",
+    "score",
+    "longest_flap",
+    "flaps_unlike",
 ];
-pub const PART_FEATURES: [&str; 15] = [
+pub const PART_FEATURES: [&str; 19] = [
     "one",
     "is_base",
     "is_flap",
@@ -62,6 +68,10 @@ pub const PART_FEATURES: [&str; 15] = [
     "held",
     "goes_on",
     "off_lid",
+    "range",
+    "angle",
+    "unlike",
+    "of_box",
 ];
 
 /// A flap that is open further counts as open: flaps that lie closed look like a lid.
@@ -129,6 +139,10 @@ pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox) -> Fea
     let sides_go_on: f64 = seen_sides.map(|(role, _)| goes_on(sight, body, &found.present, *role)).sum();
     let [rims_free, rims_go_on, rims_through] = rims::shares(sight, body, &found.present);
     let (shorter_edge, height) = (l.min(w).max(0.01).ln(), h.max(0.01).ln());
+    let lengths: Vec<f64> = (0..4).filter_map(|k| flap_length(found, k)).collect();
+    let of_across = (0..4).filter_map(|k| Some(flap_length(found, k)? / body.edge_m(k + 1)));
+    let ratio =
+        lengths.iter().fold(0.0, |most, x| x.max(most)) / lengths.iter().fold(f64::INFINITY, |least, x| x.min(least));
     vec![
         ("one", 1.0),
         ("on_walls", on_walls),
@@ -159,6 +173,11 @@ pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox) -> Fea
         ("sides_go_on", sides_go_on / sides_seen.max(1.0)),
         ("assignment", assignments.score(found)),
         ("lies", f64::from(u8::from(lies(body)))),
+        ("range", range(sight, body)),
+        ("off_support", lowest_m(body).abs().min(MOST_OFF_M)),
+        ("score", amount(found.score)),
+        ("longest_flap", of_across.fold(0.0, f64::max).min(MOST_ACROSS)),
+        ("flaps_unlike", if lengths.len() > 1 { ratio.ln() } else { 0.0 }),
     ]
 }
 
@@ -196,7 +215,51 @@ pub fn of_part(
         ("held", if role == Role::Base { 1.0 } else { owners.held(readings.iter(), 1) }),
         ("goes_on", goes_on(sight, body, &found.present, role)),
         ("off_lid", off_lid(body, role)),
+        ("range", range(sight, body)),
+        ("angle", angle(body, role)),
+        ("unlike", unlike(found, role)),
+        ("of_box", amount(found.score)),
     ]
+}
+
+/// From the camera to the middle of the base, by its logarithm.
+fn range(sight: &Sight, body: &FittedBody) -> f64 {
+    (body.input_from_object.translation.vector - sight.eye).norm().max(0.1).ln()
+}
+
+/// Higher over the support, or deeper in it, is as good as this.
+const MOST_OFF_M: f64 = 0.1;
+/// The same of how long a flap is, as a share of the way across.
+const MOST_ACROSS: f64 = 2.0;
+
+/// Of a flap that has readings, or whose tuck flap has.
+fn flap_length(found: &FoundBox, k: usize) -> Option<f64> {
+    let has = |role: Role| !found.labels.of(role).is_empty();
+    let length = found.solution.body.get(layout::flap(k) + layout::FLAP_LENGTH);
+    (has(Role::Flap(k)) || has(Role::Tuck(k))).then(|| length.max(0.005))
+}
+
+/// Of a flap's or tuck flap's hinge; 0 of what has none.
+fn angle(body: &FittedBody, role: Role) -> f64 {
+    match role {
+        Role::Flap(k) => body.get(layout::flap(k) + layout::FLAP_ANGLE),
+        Role::Tuck(k) => body.get(layout::tuck(k) + layout::TUCK_ANGLE),
+        _ => 0.0,
+    }
+}
+
+/// How far a flap's length is from that of the other seen flap that comes nearest, by its logarithm: most boxes' flaps come in
+/// pairs or fours.
+fn unlike(found: &FoundBox, role: Role) -> f64 {
+    let Role::Flap(k) = role else { return 0.0 };
+    let Some(length) = flap_length(found, k) else { return 0.0 };
+    let others = (0..4).filter(|&other| other != k).filter_map(|other| flap_length(found, other));
+    let nearest = others.map(|other| (length / other).ln().abs()).fold(f64::INFINITY, f64::min);
+    if nearest.is_finite() {
+        nearest
+    } else {
+        0.0
+    }
 }
 
 /// Of a tuck flap, by what share its flap is longer or shorter than a lid.

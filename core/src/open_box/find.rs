@@ -1,13 +1,14 @@
 use rayon::prelude::*;
 
 use super::assignments::Assignments;
-use super::choose::choose;
+use super::choose::{choose, Chosen};
 use super::features;
 use super::finish::Finishing;
 use super::flap_scan::ScannedFlap;
 use super::grow::{grow, FoundBox, COARSE_M};
 use super::hanging::{scan_flaps, COARSE_SCAN};
 use super::judgement::{probability, Judgement};
+use super::patch::Patch;
 use super::refused::{Refusal, Refused};
 use super::shells::{lies, outer_m, overlap, shells, Shell};
 use super::sight::Sight;
@@ -69,20 +70,45 @@ pub fn find(
     });
     let rivals = of_shells.chain(of_assignments);
     let found = rivals.filter_map(|(body, flaps)| grow(sight, &body, &flaps, settings)).map(weighed).collect();
-    let chosen = choose(found, sight.width);
     clock.lap("rival_fits");
-    let bodies: Vec<_> = chosen.iter().map(|chosen| chosen.one.solution.body.clone()).collect();
-    let finishing = Finishing { sight, assignments, sizes, settings, judgement };
-    let ended: Vec<_> = chosen.into_par_iter().map(|chosen| finishing.best(chosen)).collect();
+    let patches = Patch::of_things(scene, sight);
+    let finishing = Finishing { sight, patches: &patches, assignments, sizes, settings, judgement };
+    let (boxes, refused) = finished(found, &finishing);
     clock.lap("last_fits");
-    let (mut boxes, mut refused) = (Vec::new(), Vec::new());
-    for (one, body) in ended.into_iter().zip(bodies) {
-        match one {
-            Ok(one) => boxes.push(one),
-            Err(why) => refused.push(Refused { body, why: Refusal::NotFitted(why) }),
-        }
-    }
     Found { boxes, refused, stage_seconds: clock.laps }
+}
+
+/// It is chosen anew so often, at most.
+const MOST_AGAIN: usize = 3;
+
+/// Those chosen of the fitted boxes, fitted to all of their readings. Where that does not end in a box, the rest is chosen from anew.
+fn finished(mut found: Vec<FoundBox>, finishing: &Finishing) -> (Vec<FoundBox>, Vec<Refused>) {
+    let mut done: Vec<(FittedBody, FoundBox)> = Vec::new();
+    let mut refused: Vec<Refused> = Vec::new();
+    let mut again = 0;
+    loop {
+        let chosen = choose(&found, finishing.sight.width);
+        let bodies: Vec<FittedBody> = chosen.iter().map(|chosen| chosen.one.solution.body.clone()).collect();
+        let is_new = |chosen: &Chosen| done.iter().all(|(body, _)| *body != chosen.one.solution.body);
+        let new: Vec<Chosen> = chosen.into_iter().filter(is_new).collect();
+        let end = |chosen: Chosen| (chosen.one.solution.body.clone(), finishing.best(chosen));
+        let mut failed: Vec<FittedBody> = Vec::new();
+        for (body, one) in new.into_par_iter().map(end).collect::<Vec<_>>() {
+            match one {
+                Ok(one) => done.push((body, one)),
+                Err(why) => {
+                    failed.push(body.clone());
+                    refused.push(Refused { body, why: Refusal::NotFitted(why) });
+                }
+            }
+        }
+        if failed.is_empty() || again == MOST_AGAIN {
+            let of = |body: &FittedBody| done.iter().find(|(other, _)| other == body).map(|(_, one)| one.clone());
+            return (bodies.iter().filter_map(of).collect(), refused);
+        }
+        found.retain(|one| !failed.contains(&one.solution.body));
+        again += 1;
+    }
 }
 
 /// Without those that lie upon enough better ones.

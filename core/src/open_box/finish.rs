@@ -14,6 +14,8 @@ use super::hanging::{
 use super::judgement::{probability, Judgement};
 use super::label::label;
 use super::labels::{Labels, Present};
+use super::patch::Patch;
+use super::patch_flaps::flaps_of_patches;
 use super::refit::refit;
 use super::sight::Sight;
 use super::slots::height_by_slots;
@@ -26,6 +28,7 @@ use crate::fit::{
 /// What boxes are finished by.
 pub struct Finishing<'a> {
     pub sight: &'a Sight<'a>,
+    pub patches: &'a [Patch],
     pub assignments: &'a Assignments<'a>,
     pub sizes: &'a [KnownSize],
     pub settings: &'a FitSettings,
@@ -109,7 +112,7 @@ impl Finishing<'_> {
     fn finish(&self, found: FoundBox) -> Result<FoundBox, NotFitted> {
         let (sight, settings, rivals) = (self.sight, self.settings, found.rivals);
         let (solution, present, of_fewer) = fit_to_all(sight, &found, settings)?;
-        let found = look_again(sight, weigh(sight, solution, present, 1), settings);
+        let found = look_again(sight, self.patches, weigh(sight, solution, present, 1), settings);
         let (solution, size) = with_known_size(found.solution.clone(), self.sizes, settings.seen_scale.dimension);
         sound(&solution.body)?;
         let found = if size.is_some() { weigh(sight, solution, found.present, 1) } else { found };
@@ -163,7 +166,7 @@ fn fit_to_all(
 
 /// A flap that was missed, or fitted where little lies, is taken from a scan of its edge where now more is met; one that is hidden
 /// near its edge from one that looks further.
-fn look_again(sight: &Sight, found: FoundBox, settings: &FitSettings) -> FoundBox {
+fn look_again(sight: &Sight, patches: &[Patch], found: FoundBox, settings: &FitSettings) -> FoundBox {
     let (body, present) = (&found.solution.body, found.present);
     let mut flaps = scan_flaps(sight, body, FINE_M, FINE_SCAN);
     let fitted_score = |k: usize| {
@@ -177,6 +180,9 @@ fn look_again(sight: &Sight, found: FoundBox, settings: &FitSettings) -> FoundBo
     let is_missed = found.present.flaps.map(|is_there| !is_there);
     let hidden = scan_hidden_flaps(sight, &found.solution.body, FINE_M, is_missed);
     let found = taken_up(sight, found, &hidden, settings);
+    let is_missed = found.present.flaps.map(|is_there| !is_there);
+    let of_patches = flaps_of_patches(sight, patches, &found.solution.body, FINE_M, is_missed);
+    let found = taken_up(sight, found, &of_patches, settings);
     // Last: what lies in a box may look like a flap that hangs into it, and takes no other flap's place.
     let is_missed = found.present.flaps.map(|is_there| !is_there);
     let into_box = scan_flaps_into_box(sight, &found.solution.body, FINE_M, is_missed);

@@ -94,7 +94,17 @@ pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<Scann
     let mut peaks: Vec<usize> = (0..angles.len()).filter(|&i| is_peak(i)).collect();
     peaks.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
     let taken = apart(peaks.into_iter().map(|i| angles[i]), range);
-    let followed = taken.into_iter().filter_map(|angle| follow(sight, hinge, angle, range));
+    follow_best(sight, hinge, taken.into_iter(), range)
+}
+
+/// Of the flaps that are followed from these angles the best.
+pub fn follow_best(
+    sight: &Sight,
+    hinge: &HingeLine,
+    angles: impl Iterator<Item = f64>,
+    range: &ScanRange,
+) -> Option<ScannedFlap> {
+    let followed = angles.filter_map(|angle| follow(sight, hinge, angle, range));
     followed.filter(|flap| flap.score() > 0.0).fold(None, |best: Option<ScannedFlap>, flap| match best {
         Some(best) if best.score() >= flap.score() => Some(best),
         _ => Some(flap),

@@ -67,17 +67,21 @@ pub fn scan_hidden_flaps(
     is_asked: [bool; 4],
 ) -> [Option<ScannedFlap>; 4] {
     std::array::from_fn(|k| {
-        let range = ScanRange { over_hidden: true, ..flap_range(body, k, model_m, FINE_SCAN) };
-        let found = is_asked[k].then(|| scan(sight, &HingeLine::of_side(body, k), &range))?;
+        let found = is_asked[k].then(|| scan(sight, &HingeLine::of_side(body, k), &hidden_range(body, k, model_m)))?;
         found.filter(is_flap)
     })
+}
+
+/// Of the flap on side `k`, looked for beyond what hides it.
+pub fn hidden_range(body: &FittedBody, k: usize, model_m: f64) -> ScanRange {
+    ScanRange { over_hidden: true, ..flap_range(body, k, model_m, FINE_SCAN) }
 }
 
 /// Pixels on a flap, and how often more than through it.
 const LEAST_MET: f64 = 120.0;
 const MET_TO_THROUGH: f64 = 1.5;
 
-fn is_flap(flap: &ScannedFlap) -> bool {
+pub fn is_flap(flap: &ScannedFlap) -> bool {
     is_there(flap.met, flap.through)
 }
 

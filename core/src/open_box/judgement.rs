@@ -25,6 +25,16 @@ struct Odds {
     trees: Vec<Tree>,
     /// The least probability of what is told.
     told_from: f64,
+    /// Of boxes smaller than nearly all that these odds were learnt from.
+    #[serde(default)]
+    small: Option<Small>,
+}
+
+/// From which probability on boxes are told whose shorter edge is less.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+struct Small {
+    edge_m: f64,
+    told_from: f64,
 }
 
 /// The term that is the sum of all trees.
@@ -59,7 +69,9 @@ impl Judgement {
 
     /// The least probability of a box with these features that is told.
     pub fn box_told_from(&self, features: &Features) -> f64 {
-        self.of_box_that_is(features).told_from
+        let odds = self.of_box_that_is(features);
+        let is_small = |small: &Small| named(features, "shorter_edge") < small.edge_m.ln();
+        odds.small.filter(is_small).map_or(odds.told_from, |small| small.told_from)
     }
 
     fn of_box_that_is(&self, features: &Features) -> &Odds {
@@ -87,11 +99,13 @@ impl Odds {
         let missing = known.iter().find(|name| !self.weights.contains_key(**name));
         let named = self.weights.keys().map(String::as_str).chain(self.trees.iter().flat_map(Tree::features));
         let unknown = named.into_iter().find(|name| !known.contains(name));
-        let is_share = (0.0..=1.0).contains(&self.told_from);
+        let is_share = |bound: &f64| (0.0..=1.0).contains(bound);
+        let bounds = [Some(self.told_from), self.small.map(|small| small.told_from)];
+        let no_share = bounds.into_iter().flatten().find(|bound| !is_share(bound));
         missing
             .map(|name| format!("has no weight of {name}"))
             .or_else(|| unknown.map(|name| format!("{name} is not known")))
-            .or_else(|| (!is_share).then(|| format!("told_from: {} is no probability", self.told_from)))
+            .or_else(|| no_share.map(|bound| format!("told_from: {bound} is no probability")))
     }
 
     fn terms(&self, features: &Features) -> Vec<(&'static str, f64, f64)> {

@@ -27,6 +27,7 @@ mod lids;
 mod next_view;
 mod owners;
 mod patch;
+mod patch_flaps;
 mod proposal;
 mod recast;
 mod refit;

@@ -12,7 +12,7 @@ Tree = float | list[Any]
 """A leaf's log odds, or [feature, bound, the tree up to it, the tree above]."""
 
 TREES = 300
-DEPTH = 3
+DEPTH = 4
 RATE = 0.05
 LEAF = 20
 """Examples of a leaf, at least."""

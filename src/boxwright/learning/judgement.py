@@ -22,10 +22,16 @@ from boxwright.types.model import Object
 RIDGE = 100.0
 """Weight of the squared coefficients, of features scaled to a spread of 1, against one example."""
 STEPS = 60
-TOLD_FROM = 0.5
-"""Told is what has this probability or more."""
+TOLD_FROM = 0.3
+"""Boxes are told that have this probability or more: the frames hold more that is none than those of a packing cell."""
+PART_TOLD_FROM = 0.5
+"""The same of panels."""
 LYING_TOLD_FROM = 0.8
 """The same of boxes that lie on a side: the frames hold more of them than the world, and few shelves."""
+SMALL_TOLD_FROM = 0.8
+"""The same of boxes that are smaller than nearly all right ones that were learnt from: there the odds are a guess."""
+SMALL_SHARE = 0.01
+"""So many of the right ones are smaller."""
 RIGHT_SHARE = 0.25
 """A box is right when its right less its wrong panels are at least this share of those in the cloud."""
 
@@ -53,13 +59,21 @@ class JudgementReport(msgspec.Struct, frozen=True, kw_only=True):
     wrong_parts: int
 
 
-class Odds(msgspec.Struct, frozen=True, kw_only=True):
+class Small(msgspec.Struct, frozen=True, kw_only=True):
+    """From which probability on boxes are told whose shorter edge is less, metres."""
+
+    edge_m: float
+    told_from: float
+
+
+class Odds(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Log odds: the weighted sum of the features, and what each tree adds."""
 
     weights: dict[str, float]
     trees: list[Tree]
     told_from: float
     """Told is what has this probability or more."""
+    small: Small | None = None
 
 
 class LearnedJudgement(msgspec.Struct, frozen=True, kw_only=True):
@@ -108,16 +122,17 @@ def learn_judgement(
     require_learner()
     count, every = len(entries), [*entries, *lying]
     before = list(_seen(every, None, jobs, lambda line: progress(f"unjudged: {line}")))
-    first = _fitted(before[:count], before, told_from=(0.0, 0.0))
+    first = _fitted(before[:count], before, told_from=(0.0, 0.0, 0.0))
     text = msgspec.json.encode(dict(zip(("box", "lying", "part"), first, strict=True))).decode()
     # A judgement chooses among rivals, so that it meets others than those that it learnt from.
     judged = list(_seen(every, text, jobs, lambda line: progress(f"judged: {line}")))
     examples = before + judged
-    box, of_lying, part = _fitted(before[:count] + judged[:count], examples, (TOLD_FROM, LYING_TOLD_FROM))
+    told_from = (TOLD_FROM, LYING_TOLD_FROM, PART_TOLD_FROM)
+    box, of_lying, part = _fitted(before[:count] + judged[:count], examples, told_from)
     boxes = [is_right for frame in examples for _, is_right in frame.boxes]
     parts = [is_right for frame in examples for _, is_right in frame.parts]
     return LearnedJudgement(
-        box=box,
+        box=msgspec.structs.replace(box, small=_small(examples)),
         lying=of_lying,
         part=part,
         training=JudgementReport(
@@ -131,8 +146,14 @@ def learn_judgement(
     )
 
 
+def _small(examples: Sequence[Examples]) -> Small:
+    """Learnt from the right ones, by the logarithms of their shorter edges."""
+    edges = [features["shorter_edge"] for frame in examples for features, is_right in frame.boxes if is_right]
+    return Small(edge_m=round(float(np.exp(np.quantile(edges, SMALL_SHARE))), 3), told_from=SMALL_TOLD_FROM)
+
+
 def _fitted(
-    examples: Sequence[Examples], with_lying: Sequence[Examples], told_from: tuple[float, float]
+    examples: Sequence[Examples], with_lying: Sequence[Examples], told_from: tuple[float, float, float]
 ) -> tuple[Odds, Odds, Odds]:
     """Of boxes that stand, of boxes that lie, and of parts; how a box stands tells of those that lie, too."""
     found = {
@@ -143,8 +164,7 @@ def _fitted(
     for name, told in found.items():
         if len({is_right for _, is_right in told}) < 2:
             raise ValueError(f"the frames show no right and wrong {name} to tell apart; add frames, empty ones too")
-    least = (told_from[0], told_from[1], told_from[0])
-    box, lying, part = (fit_odds(told, of) for told, of in zip(found.values(), least, strict=True))
+    box, lying, part = (fit_odds(told, of) for told, of in zip(found.values(), told_from, strict=True))
     return box, lying, part
 
 

@@ -107,6 +107,6 @@ pub fn fuse<'a>(
     }
     // All images as one row.
     let points = sights.iter().map(|sight| sight.points.len()).sum();
-    let found = choose(fitted, points).into_iter().map(|chosen| chosen.one).collect();
+    let found = choose(&fitted, points).into_iter().map(|chosen| chosen.one).collect();
     Ok(Fused { sights, found, refused, refused_by_frames, warnings })
 }
