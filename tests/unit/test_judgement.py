@@ -57,6 +57,7 @@ def test_a_judgement_that_does_not_fit_is_named() -> None:
         "no_such_feature": lambda judgement: judgement["part"]["trees"].append(["lean", 0.1, 0.0, unknown_leaf]),
         "told_from: 1.5": lambda judgement: judgement["part"].update(told_from=1.5),
         "told_from: 2": lambda judgement: judgement["box"]["small"].update(told_from=2.0),
+        "edge_m: -0.1": lambda judgement: judgement["box"]["small"].update(edge_m=-0.1),
         "missing field `edge_m`": lambda judgement: judgement["box"]["small"].pop("edge_m"),
         "Tree": lambda judgement: judgement["box"]["trees"].append(["lean", 0.5]),
     }

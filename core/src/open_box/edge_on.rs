@@ -1,7 +1,7 @@
 //! Lids that are seen from their edge: nothing of them shows, and all of the tuck flap at their end.
 
 use super::evidence::Sheet;
-use super::hanging::{tuck_beyond, FLAP_ANGLES_RAD, TUCK_LESS_THAN_FLAP_M};
+use super::hanging::{tuck_beyond, with_tucks, ScannedTuck, FLAP_ANGLES_RAD};
 use super::hinge_line::HingeLine;
 use super::labels::Present;
 use super::sight::Sight;
@@ -38,23 +38,19 @@ pub fn with_edge_on_lids(
 /// The body with a lid on side `k` whose tuck flap holds most.
 fn edge_on_lid(sight: &Sight, body: &FittedBody, k: usize, model_m: f64) -> Option<FittedBody> {
     let hinge = HingeLine::of_side(body, k);
-    let to_eye = sight.eye - hinge.middle;
-    let edge_on = hinge.up.dot(&to_eye).atan2(hinge.closed.dot(&to_eye));
-    let around = (-STEPS..=STEPS).map(|i| edge_on + f64::from(i) * STEP_RAD);
-    let either_way = around.flat_map(|angle| [angle, angle + std::f64::consts::PI]);
-    let [least, most] = FLAP_ANGLES_RAD;
-    let tried = either_way.filter(|angle| (least..most).contains(angle)).filter_map(|angle| {
+    let lid_m = lid_length_m(body, k);
+    let angles = hinge.edge_on_angles(&sight.eye, STEPS, STEP_RAD, FLAP_ANGLES_RAD);
+    let tried = angles.into_iter().filter_map(|angle| {
         let mut lid = body.clone();
         let flap = layout::flap(k);
         lid.numbers[flap + layout::FLAP_ANGLE] = angle;
         lid.numbers[flap + layout::FLAP_CURL] = 0.0;
-        lid.numbers[flap + layout::FLAP_LENGTH] = lid_length_m(body, k);
-        let tuck = tuck_beyond(sight, &lid, k, lid_length_m(body, k), model_m)?;
-        let looked = Sheet::new(&lid, Role::Flap(k), &sight.eye).look(sight, model_m);
-        let through = looked.through + tuck.through;
-        lid.numbers[layout::tuck(k) + layout::TUCK_ANGLE] = tuck.angle_rad;
-        lid.numbers[layout::tuck(k) + layout::TUCK_LENGTH] = tuck.length_m;
-        lid.numbers[layout::tuck(k) + layout::TUCK_WIDTH] = body.get(flap + layout::FLAP_WIDTH) - TUCK_LESS_THAN_FLAP_M;
+        lid.numbers[flap + layout::FLAP_LENGTH] = lid_m;
+        let tuck = tuck_beyond(sight, &lid, k, lid_m, model_m)?;
+        let through = Sheet::new(&lid, Role::Flap(k), &sight.eye).look(sight, model_m).through + tuck.through;
+        let mut tucks = [None; 4];
+        tucks[k] = Some(ScannedTuck { tuck, flap_length_m: lid_m });
+        let (lid, _) = with_tucks(&lid, &Present::default(), &tucks);
         (tuck.met > LEAST_PX && tuck.met > MET_TO_THROUGH * through).then_some((tuck.met - 2.0 * through, lid))
     });
     let best = tried.fold(None, |best: Option<(f64, FittedBody)>, one| match best {

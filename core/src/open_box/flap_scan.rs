@@ -131,11 +131,7 @@ fn angles(hinge: &HingeLine, eye: &Vec3, range: &ScanRange) -> Vec<f64> {
     let steps = ((range.angles_rad[1] - range.angles_rad[0]) / step).ceil() as usize;
     let mut out: Vec<f64> = (0..=steps).map(|i| range.angles_rad[0] + i as f64 * step).collect();
     if range.over_hidden {
-        let to_eye = eye - hinge.middle;
-        let edge_on = hinge.up.dot(&to_eye).atan2(hinge.closed.dot(&to_eye));
-        let around = (-EDGE_ON_STEPS..=EDGE_ON_STEPS).map(|i| edge_on + f64::from(i) * EDGE_ON_STEP_RAD);
-        let either_way = around.flat_map(|angle| [angle, angle + std::f64::consts::PI]);
-        out.extend(either_way.filter(|angle| (range.angles_rad[0]..range.angles_rad[1]).contains(angle)));
+        out.extend(hinge.edge_on_angles(eye, EDGE_ON_STEPS, EDGE_ON_STEP_RAD, range.angles_rad));
         out.sort_by(f64::total_cmp);
     }
     out

@@ -88,6 +88,15 @@ impl HingeLine {
         reading.z.abs() < tolerance || self.base.height_of(&reading).abs() < tolerance
     }
 
+    /// Angles about those at which the eye lies in the board's plane, so many steps to either side, among those from `least` up to `most`.
+    pub fn edge_on_angles(&self, eye: &Vec3, steps: i32, step_rad: f64, [least, most]: [f64; 2]) -> Vec<f64> {
+        let to_eye = eye - self.middle;
+        let edge_on = self.up.dot(&to_eye).atan2(self.closed.dot(&to_eye));
+        let around = (-steps..=steps).map(|i| edge_on + f64::from(i) * step_rad);
+        let either_way = around.flat_map(|angle| [angle, angle + std::f64::consts::PI]);
+        either_way.filter(|angle| (least..most).contains(angle)).collect()
+    }
+
     pub fn directions(&self, angle: f64) -> (Vec3, Vec3) {
         let (sin, cos) = angle.sin_cos();
         (self.closed * cos + self.up * sin, self.up * cos - self.closed * sin)

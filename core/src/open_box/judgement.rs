@@ -101,10 +101,12 @@ impl Odds {
         let unknown = named.into_iter().find(|name| !known.contains(name));
         let is_share = |bound: &f64| (0.0..=1.0).contains(bound);
         let bounds = [Some(self.told_from), self.small.map(|small| small.told_from)];
+        let no_edge = self.small.filter(|small| !(small.edge_m > 0.0 && small.edge_m.is_finite()));
         let no_share = bounds.into_iter().flatten().find(|bound| !is_share(bound));
         missing
             .map(|name| format!("has no weight of {name}"))
             .or_else(|| unknown.map(|name| format!("{name} is not known")))
+            .or_else(|| no_edge.map(|small| format!("small.edge_m: {} is no length", small.edge_m)))
             .or_else(|| no_share.map(|bound| format!("told_from: {bound} is no probability")))
     }
 
