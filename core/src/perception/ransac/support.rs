@@ -16,17 +16,25 @@ const MIN_STANDING: f64 = 8.0;
 /// Cells of standing things that are enough; more make no better ground.
 const ENOUGH_STANDING: f64 = 30.0;
 /// How fast a plane loses worth as its normal turns down in the image.
-const UPSIDE_DOWN_RATE: f64 = 4.5;
-/// A table is as level as the floor (within 10 degrees), this high over it, and shows this much around its things.
-const TABLE_LEVEL_COSINE: f64 = 0.985;
+const UPSIDE_DOWN_RATE: f64 = 8.0;
+/// How fast it does as its normal turns sideways in the image, beyond this much of it.
+const SIDEWAYS_RATE: f64 = 2.0;
+const MAX_SIDEWAYS: f64 = 0.3;
+/// A table is as level as the floor (within 2 degrees: a flap that hangs level by chance seldom is), this high over it, and shows
+/// this much around its things.
+const TABLE_LEVEL_COSINE: f64 = 0.9994;
 const MIN_TABLE_HEIGHT_M: f64 = 0.35;
 const MIN_TABLE_M2: f64 = 0.15;
+/// Of what stands on a table so much lies over it: beside a closed lid flaps begin, and lean away.
+const MIN_OVER_TABLE: f64 = 0.25;
 /// Cells behind the support's own readings that may be seen through holes, and how many times those above it they are
 /// where it is seen from the wrong side.
 const MIN_THROUGH: usize = 12;
 const THROUGH_FACTOR: usize = 2;
 /// Two planes with no thing on them are both plausible where the lesser has this share of the other's worth.
 const RIVAL_SHARE: f64 = 0.5;
+/// A plane on which nothing stands is no support where it has less than this share of the largest one's cells.
+const MIN_BARE_SHARE: f64 = 0.1;
 /// How strongly upright surroundings speak for a plane on which nothing stands.
 const CONTAINER_POWER: i32 = 4;
 /// Things tell the side of a plane where they have this share of its cells.
@@ -139,7 +147,12 @@ fn choose(
     let side = |f: &Footing| if has_viewpoint || settings.up.is_some() { 1.0 } else { side_worth(f) };
     // Around a container's base every wall is upright; around one of its walls the opposite wall is not.
     let upright = |f: &Footing| f.upright_share.map_or(1.0, |share| share.powi(CONTAINER_POWER));
-    let bare = |f: &Footing| f.ground_cells as f64 * prior(f, organized) * side(f) * upright(f);
+    let largest = candidates.iter().map(|(_, f)| f.ground_cells).max().unwrap_or(0) as f64;
+    let is_large = |f: &Footing| f.ground_cells as f64 >= MIN_BARE_SHARE * largest;
+    let bare = |f: &Footing| match is_large(f) {
+        true => f.ground_cells as f64 * prior(f, organized) * side(f) * upright(f),
+        false => 0.0,
+    };
     let Some(best) = best_by(candidates.iter(), bare) else { return Ok(None) };
     if settings.up.is_none() && !organized {
         refuse_rivals(candidates, best, bare)?;
@@ -165,11 +178,15 @@ fn bearing_worth(footing: &Footing, organized: bool) -> f64 {
     ground * bears * upright * prior(footing, organized)
 }
 
-/// A camera seldom hangs upside down: in its image (y down) a floor's normal does not point down. A wall's does where the
-/// camera looks down on the scene.
+/// A camera seldom hangs upside down or on its side: in its image (y down) a floor's normal points neither down nor sideways. A
+/// wall's does where the camera looks down on the scene, or along the wall.
 fn prior(footing: &Footing, organized: bool) -> f64 {
-    let downwards = if organized { (footing.plane.normal.y - 0.05).max(0.0) } else { 0.0 };
-    (-UPSIDE_DOWN_RATE * downwards).exp()
+    if !organized {
+        return 1.0;
+    }
+    let downwards = (footing.plane.normal.y - 0.05).max(0.0);
+    let sideways = (footing.plane.normal.x.abs() - MAX_SIDEWAYS).max(0.0);
+    (-UPSIDE_DOWN_RATE * downwards - SIDEWAYS_RATE * sideways).exp()
 }
 
 /// The highest table that bears things over the floor, else the floor itself.
@@ -179,6 +196,7 @@ fn table_on<'a>(floor: &'a (usize, Footing), candidates: &'a [(usize, Footing)])
         f.plane.normal.dot(&floor.1.plane.normal) > TABLE_LEVEL_COSINE
             && height_m(f) > MIN_TABLE_HEIGHT_M
             && f.standing >= MIN_STANDING
+            && f.above as f64 >= MIN_OVER_TABLE * f.standing
             && f.free_cells as f64 * f.cell_m.powi(2) > MIN_TABLE_M2
     };
     let tables = candidates.iter().filter(is_table);
