@@ -4,6 +4,7 @@ use super::grow::FoundBox;
 use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
 use super::sight::{reading_of, Sight};
+use super::told::is_told;
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer, ScoreTermAnswer};
 use crate::fit::{fill, lean_name, wall_lean, FitSettings, KnownSize, Role};
 use crate::free_space::PartState;
@@ -30,10 +31,10 @@ pub fn answer(
     let mut parts: Vec<PartAnswer> = template.parts.iter().map(|part| PartAnswer::unseen(&part.name)).collect();
     let mut readings = Vec::new();
     for &(part, role) in &roles {
-        let points = found.labels.of(role);
-        if points.is_empty() || judgement.is_some_and(|judgement| !found.is_probable(role, judgement)) {
+        if !is_told(found, role, judgement) {
             continue;
         }
+        let points = found.labels.of(role);
         seen[part] = true;
         parts[part].points = points.len();
         parts[part].probability = judgement.and_then(|judgement| found.part_probability(role, judgement));
@@ -42,18 +43,6 @@ pub fn answer(
     let input_from_level = sights.first()?.input_from_level;
     let mut solution = found.solution.clone();
     solution.body.input_from_object = input_from_level * solution.body.input_from_object;
-    for k in 0..4 {
-        // A flap on a flap that was not seen hangs on nothing, but where that is seen from its edge.
-        let (Some(flap), Some(tuck)) = (box_roles.flaps[k], box_roles.tucks[k]) else { continue };
-        let evidence = found.evidence.iter().find(|(role, _)| *role == Role::Flap(k));
-        let is_edge_on = evidence.is_some_and(|(_, evidence)| evidence.is_edge_on());
-        if seen[tuck] && !seen[flap] && !is_edge_on {
-            seen[tuck] = false;
-            parts[tuck].points = 0;
-            parts[tuck].probability = None;
-            readings.retain(|(part, _)| *part != tuck);
-        }
-    }
     let judged = judgement.map(|judgement| judgement.of_box(&found.features));
     let mut object = ObjectAnswer {
         template: template.name.clone(),

@@ -28,7 +28,7 @@ pub fn choose(found: &[FoundBox], width: usize) -> Vec<Chosen> {
     found.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     let ranks: Vec<f64> = found.iter().map(|one| rank(one)).collect();
     let cells: Vec<Vec<u32>> = found.iter().map(|one| cells(one, width)).collect();
-    let excludes = |a: usize, b: usize| SHARED * shared(&cells[a], &cells[b]) > cells[a].len().min(cells[b].len());
+    let excludes = |a: usize, b: usize| share(&cells[a], &cells[b]);
     let chosen = heaviest(&ranks, &excludes);
     let takes_place = |other: usize, number: usize| {
         !chosen.contains(&other)
@@ -53,6 +53,15 @@ pub fn choose(found: &[FoundBox], width: usize) -> Vec<Chosen> {
         Chosen { one: with_rivals(found[number], count), instead }
     };
     chosen.iter().map(of).collect()
+}
+
+/// Whether one of two boxes is none, since they share too many readings.
+pub fn excludes(one: &FoundBox, other: &FoundBox, width: usize) -> bool {
+    share(&cells(one, width), &cells(other, width))
+}
+
+fn share(a: &[u32], b: &[u32]) -> bool {
+    SHARED * shared(a, b) > a.len().min(b.len())
 }
 
 /// Sorted, each once.

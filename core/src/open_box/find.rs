@@ -1,15 +1,15 @@
 use rayon::prelude::*;
 
 use super::assignments::Assignments;
-use super::choose::{choose, Chosen};
 use super::features;
 use super::finish::Finishing;
 use super::flap_scan::ScannedFlap;
 use super::grow::{grow, FoundBox, COARSE_M};
 use super::hanging::{scan_flaps, COARSE_SCAN};
-use super::judgement::{probability, Judgement};
+use super::judgement::Judgement;
+use super::last_fits::last_fits;
 use super::patch::Patch;
-use super::refused::{Refusal, Refused};
+use super::refused::Refused;
 use super::shells::{lies, outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
@@ -56,11 +56,11 @@ pub fn find(
     });
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
     clock.lap("flap_scans");
-    let judged = |one: &FoundBox| {
-        let odds = |judgement: &Judgement| judgement.of_box(&features::of_box(sight, assignments, one)).0;
-        judgement.map_or(1.0, |judgement| probability(odds(judgement)))
+    let weighed = |one: FoundBox| {
+        let features = features::of_box(sight, assignments, &one);
+        let probability = judgement.map_or(1.0, |judgement| judgement.box_probability(&features));
+        FoundBox { features, probability, size: best_match(&one.solution, sizes), ..one }
     };
-    let weighed = |one: FoundBox| FoundBox { probability: judged(&one), size: best_match(&one.solution, sizes), ..one };
     let of_shells = best_of_rivals(&shells).into_par_iter().map(|shell| (body_of(&shell.proposal), shell.flaps));
     let of_assignments = assignments.bodies.par_iter().map(|body| {
         let input_from_object = sight.input_from_level.inverse() * body.input_from_object;
@@ -73,42 +73,9 @@ pub fn find(
     clock.lap("rival_fits");
     let patches = Patch::of_things(scene, sight);
     let finishing = Finishing { sight, patches: &patches, assignments, sizes, settings, judgement };
-    let (boxes, refused) = finished(found, &finishing);
+    let (boxes, refused) = last_fits(found, &finishing);
     clock.lap("last_fits");
     Found { boxes, refused, stage_seconds: clock.laps }
-}
-
-/// It is chosen anew so often, at most.
-const MOST_AGAIN: usize = 3;
-
-/// Those chosen of the fitted boxes, fitted to all of their readings. Where that does not end in a box, the rest is chosen from anew.
-fn finished(mut found: Vec<FoundBox>, finishing: &Finishing) -> (Vec<FoundBox>, Vec<Refused>) {
-    let mut done: Vec<(FittedBody, FoundBox)> = Vec::new();
-    let mut refused: Vec<Refused> = Vec::new();
-    let mut again = 0;
-    loop {
-        let chosen = choose(&found, finishing.sight.width);
-        let bodies: Vec<FittedBody> = chosen.iter().map(|chosen| chosen.one.solution.body.clone()).collect();
-        let is_new = |chosen: &Chosen| done.iter().all(|(body, _)| *body != chosen.one.solution.body);
-        let new: Vec<Chosen> = chosen.into_iter().filter(is_new).collect();
-        let end = |chosen: Chosen| (chosen.one.solution.body.clone(), finishing.best(chosen));
-        let mut failed: Vec<FittedBody> = Vec::new();
-        for (body, one) in new.into_par_iter().map(end).collect::<Vec<_>>() {
-            match one {
-                Ok(one) => done.push((body, one)),
-                Err(why) => {
-                    failed.push(body.clone());
-                    refused.push(Refused { body, why: Refusal::NotFitted(why) });
-                }
-            }
-        }
-        if failed.is_empty() || again == MOST_AGAIN {
-            let of = |body: &FittedBody| done.iter().find(|(other, _)| other == body).map(|(_, one)| one.clone());
-            return (bodies.iter().filter_map(of).collect(), refused);
-        }
-        found.retain(|one| !failed.contains(&one.solution.body));
-        again += 1;
-    }
 }
 
 /// Without those that lie upon enough better ones.

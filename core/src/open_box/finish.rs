@@ -11,7 +11,7 @@ use super::grow::{competing, grow, sound, weigh, FoundBox, COARSE_STRIDE, FINE_M
 use super::hanging::{
     scan_flaps, scan_flaps_into_box, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN,
 };
-use super::judgement::{probability, Judgement};
+use super::judgement::Judgement;
 use super::label::label;
 use super::labels::{Labels, Present};
 use super::patch::Patch;
@@ -20,6 +20,7 @@ use super::refit::refit;
 use super::sight::Sight;
 use super::slots::height_by_slots;
 use super::sure::drop_unsure;
+use super::told::refusal;
 use crate::fit::{
     canonical_turn, layout, share_of_score, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role,
     Solution,
@@ -86,7 +87,15 @@ impl Finishing<'_> {
         let grown = grow(self.sight, &lower, &flaps, self.settings);
         let lower = grown.map(|grown| FoundBox { rivals: found.rivals, size: found.size, ..grown });
         match lower.map(|lower| self.finish(lower)) {
-            Some(Ok(lower)) if self.rank(&lower) > BELOW_SLOTS * self.rank(&found) => self.while_better(lower),
+            Some(Ok(lower)) if self.rank(&lower) > BELOW_SLOTS * self.rank(&found) => {
+                let lower = self.while_better(lower);
+                let is_told = |one: &FoundBox| refusal(one, self.judgement).is_none();
+                if is_told(&lower) || !is_told(&found) {
+                    lower
+                } else {
+                    found
+                }
+            }
             _ => found,
         }
     }
@@ -104,7 +113,7 @@ impl Finishing<'_> {
 
     /// What it holds, times the probability that it is a box, and one of a known size.
     fn rank(&self, one: &FoundBox) -> f64 {
-        let judged = self.judgement.map_or(1.0, |judgement| probability(judgement.of_box(&one.features).0));
+        let judged = self.judgement.map_or(1.0, |judgement| judgement.box_probability(&one.features));
         one.score * share_of_score(one.size.as_ref()) * judged
     }
 

@@ -67,6 +67,11 @@ impl Judgement {
         (terms.iter().map(|(_, value, weight)| value * weight).sum(), terms)
     }
 
+    /// The probability that it is one (eq. 90).
+    pub fn box_probability(&self, features: &Features) -> f64 {
+        probability(self.of_box(features).0)
+    }
+
     /// The least probability of a box with these features that is told.
     pub fn box_told_from(&self, features: &Features) -> f64 {
         let odds = self.of_box_that_is(features);

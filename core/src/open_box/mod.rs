@@ -22,6 +22,7 @@ mod judgement;
 mod kind;
 mod label;
 mod labels;
+mod last_fits;
 mod lean;
 mod lids;
 mod next_view;
@@ -44,6 +45,7 @@ mod slots;
 mod start;
 mod sure;
 mod surfaces;
+mod told;
 mod trees;
 mod unseen;
 mod upright;
@@ -52,7 +54,6 @@ mod yaw;
 
 pub use answer::{answer, PartReadings};
 pub use assignments::Assignments;
-pub use closed::may_be_closed;
 pub use closed_box::find_closed;
 pub use features::Features;
 pub use find::{find, Found};
@@ -63,6 +64,7 @@ pub use recast::recast;
 pub use refused::{Refusal, Refused};
 pub use shape::{Shape, SHAPE_FEATURES};
 pub use sight::Sight;
+pub use told::{few_panels, refusal};
 pub use views::{fuse, Fused, View};
 
 #[cfg(test)]

@@ -10,13 +10,11 @@ use crate::fit::{FitSettings, KnownSize};
 use crate::inference::ObjectModel;
 use crate::model::Template;
 use crate::open_box::{self, closed_boxes, find_closed, open_boxes, Assignments, Found, FoundBox, Judgement};
-use crate::open_box::{Kinds, PartReadings, Refusal, Refused, Shape, Sight};
+use crate::open_box::{few_panels, refusal, Kinds, PartReadings, Refusal, Refused, Shape, Sight};
 use crate::perception::readings::Readings;
 use crate::perception::Scene;
 
 const NOTHING_HELD: &str = "no object: no box that the segments propose holds enough readings of the depth image";
-/// An object has at least so many panels with enough readings.
-pub const LEAST_PANELS: usize = 3;
 
 /// How fitted boxes become objects: templates that compete, what tells them apart, what is known of boxes.
 #[derive(Clone, Copy)]
@@ -119,16 +117,10 @@ fn tell_box(answer: &mut Answer, one: &FoundBox, sights: &[Sight], telling: &Tel
     let (number, probability) = kinds.choose(&shape, templates)?;
     let told = open_box::answer(one, templates[number], probability, sights, sizes, settings, *judgement);
     let (object, parts) = told?;
-    let least = judgement.map_or(0.0, |judgement| judgement.box_told_from(&one.features));
-    if let Some(probability) = object.probability.filter(|p| *p < least) {
-        return Some(Refusal::Improbable { probability, least });
-    }
-    if open_box::may_be_closed(one) {
-        return Some(Refusal::MayBeClosed);
-    }
+    // Of the panels that are told, the template may have fewer.
     let seen = object.parts.iter().filter(|part| part.observed).count();
-    if seen < LEAST_PANELS {
-        return Some(Refusal::FewPanels { seen, least: LEAST_PANELS });
+    if let Some(why) = refusal(one, *judgement).or_else(|| few_panels(seen)) {
+        return Some(why);
     }
     if let Some(why) = &one.of_fewer {
         let number = answer.objects.len();

@@ -1,12 +1,11 @@
 //! Fitted boxes of clouds whose rays nobody can ask: by exact assignments of the segments.
 
-use super::boxes::LEAST_PANELS;
 use super::{understand, Answer, Bodies};
 use crate::body::ObjectAnswer;
 use crate::error::Result;
 use crate::inference::{ObjectModel, SearchSettings};
 use crate::model::{Body, OpenBoxRoles, Template};
-use crate::open_box::{recast, Kinds, Refusal, Shape};
+use crate::open_box::{few_panels, recast, Kinds, Shape};
 use crate::perception::Scene;
 
 const NO_FREE_SPACE: &str =
@@ -82,8 +81,7 @@ fn drop_unfitted(answer: &mut Answer, models: &[ObjectModel]) {
     for (number, object) in answer.objects.iter().enumerate() {
         let is_fitted = Shape::of_answer(object).is_some();
         let seen = object.parts.iter().filter(|part| part.observed).count();
-        if is_fitted && seen < LEAST_PANELS {
-            let why = Refusal::FewPanels { seen, least: LEAST_PANELS };
+        if let Some(why) = few_panels(seen).filter(|_| is_fitted) {
             answer.refused.push(format!("no object of {}: {why}", object.template));
         } else if is_fitted || !unfitted.contains(&object.template) {
             kept.push(number);

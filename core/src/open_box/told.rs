@@ -1,0 +1,43 @@
+//! Which finished boxes are told.
+
+use super::closed::may_be_closed;
+use super::grow::FoundBox;
+use super::judgement::Judgement;
+use super::labels::roles;
+use super::refused::Refusal;
+use crate::fit::Role;
+
+/// An object has at least so many panels with enough readings.
+pub const LEAST_PANELS: usize = 3;
+
+/// Why a finished box is no object; `None` of one that is told.
+pub fn refusal(found: &FoundBox, judgement: Option<&Judgement>) -> Option<Refusal> {
+    let odds = judgement
+        .map(|judgement| (judgement.box_probability(&found.features), judgement.box_told_from(&found.features)));
+    if let Some((probability, least)) = odds.filter(|(probability, least)| probability < least) {
+        return Some(Refusal::Improbable { probability, least });
+    }
+    if may_be_closed(found) {
+        return Some(Refusal::MayBeClosed);
+    }
+    let is_told = |role: &Role| is_told(found, *role, judgement);
+    few_panels(roles(&found.present).iter().filter(|role| is_told(role)).count())
+}
+
+/// Refuses what shows so few panels.
+pub fn few_panels(seen: usize) -> Option<Refusal> {
+    (seen < LEAST_PANELS).then_some(Refusal::FewPanels { seen, least: LEAST_PANELS })
+}
+
+/// Whether a panel is told as seen: a flap on a flap that was not seen hangs on nothing, but where that is seen from its edge.
+pub fn is_told(found: &FoundBox, role: Role, judgement: Option<&Judgement>) -> bool {
+    let has = |role: Role| {
+        !found.labels.of(role).is_empty() && judgement.is_none_or(|judgement| found.is_probable(role, judgement))
+    };
+    let is_edge_on =
+        |role: Role| found.evidence.iter().any(|(other, evidence)| *other == role && evidence.is_edge_on());
+    match role {
+        Role::Tuck(k) => has(role) && (has(Role::Flap(k)) || is_edge_on(Role::Flap(k))),
+        _ => has(role),
+    }
+}
