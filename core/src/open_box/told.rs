@@ -41,3 +41,36 @@ pub fn is_told(found: &FoundBox, role: Role, judgement: Option<&Judgement>) -> b
         _ => has(role),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, Isometry3};
+
+    use super::super::evidence::Evidence;
+    use super::super::labels::{Labels, Present};
+    use super::*;
+    use crate::fit::{FittedBody, Parameters, Solution};
+
+    /// A box on whose flap 0 a tuck flap hangs, with so many readings on its side, its flap and that.
+    fn found(readings: [usize; 3], flap: Evidence) -> FoundBox {
+        let body = FittedBody { input_from_object: Isometry3::identity(), numbers: Parameters::zeros() };
+        let roles = [Role::Side(0), Role::Flap(0), Role::Tuck(0)];
+        let parts = roles.iter().zip(readings).map(|(role, count)| (*role, vec![0; count])).collect();
+        let first = [true, false, false, false];
+        let present = Present { flaps: first, tucks: first };
+        let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
+        FoundBox::unjudged(solution, present, Labels { parts, stride: 1 }, vec![(Role::Flap(0), flap)], 0.0)
+    }
+
+    #[test]
+    fn a_tuck_flap_on_nothing_is_not_told_and_three_panels_are_a_box() {
+        let slanted = Evidence { met: 400.0, ..Evidence::default() };
+        for (readings, seen) in [([900, 400, 90], 3), ([900, 0, 90], 1), ([0, 400, 90], 2), ([900, 400, 0], 2)] {
+            let one = found(readings, slanted);
+            let told =
+                [Role::Side(0), Role::Flap(0), Role::Tuck(0)].iter().filter(|role| is_told(&one, **role, None)).count();
+            assert_eq!(told, seen, "{readings:?}");
+            assert_eq!(few_panels(told).is_none(), seen == 3, "{readings:?}");
+        }
+    }
+}
