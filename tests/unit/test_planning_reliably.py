@@ -33,6 +33,10 @@ BY_THE_BASE = (1133, 86, "flap_3")
 """A flap that would swing into the arm's base."""
 PRESSED_DOWN = (1133, 7)
 """Four long flaps of which each lies on others that spring up; those near its hinge are pressed down easily."""
+ON_RIMS = (1135, 8)
+"""Four flaps; two lie on one another and on the rims: the others come to lie on their corners, and no press helps."""
+SPRINGS_UP = (1135, 67, "flap_1")
+"""A flap that those across from one another prop up so far that its crease lifts it off them."""
 LEFT = (1134, 165, "flap_1")
 """A flap of a high box, beside a tuck: after all others the widest search finds how."""
 BY_THE_TIP = (1134, 68, "flap_3")
@@ -45,6 +49,7 @@ STRAIGHT_ALONE = {"transit_tries": 0, "shortcuts": 0}
 FIRMLY: dict[str, Any] = {"fine_contacts": {"least_lever": 0.2, "least_hook_m": 0.006, "most_lean": 0.95}}
 WIDE = {**FIRMLY, "beams": [16, 50, 60]}
 USUAL = {"beams": [16, 50]}
+ONE_SEARCH = {"beams": [16]}
 PUSHED_HOME = {"least_lay_rad": 9.0}
 AT_ONE_GO = {"fork": {"most_stages": 1}}
 
@@ -92,6 +97,13 @@ def test_what_all_else_leaves_open_is_searched_for_more_widely() -> None:
     assert plan.order == (*without.order, name)
     assert _keeps_clear(seed, number, plan)
     assert _all_held(seed, number, "ordinary", plan)
+
+
+def test_without_wider_searches_the_first_ones_reason_is_told() -> None:
+    seed, number, name = LEFT
+    told_of = _plan(seed, number, "ordinary", ONE_SEARCH).flaps[name]
+    assert told_of.status == "blocked"
+    assert "comes too near to" in (told_of.reason or "")
 
 
 def test_a_flap_is_held_with_the_very_tip_where_nothing_else_reaches_it() -> None:
@@ -158,3 +170,17 @@ def test_flaps_below_others_are_pressed_down_near_the_hinge_of_those() -> None:
     plan = _plan(*PRESSED_DOWN, "pre_broken")
     assert len(plan.order) == 4
     assert _all_held(*PRESSED_DOWN, "pre_broken", plan)
+
+
+def test_flaps_that_lie_on_the_rims_are_pressed_no_further_than_boards_let_them() -> None:
+    plan = _plan(*ON_RIMS, "pre_broken")
+    assert len(plan.order) == 4
+    assert _all_held(*ON_RIMS, "pre_broken", plan)
+
+
+def test_a_flap_that_would_spring_up_off_those_it_lies_on_is_left_open() -> None:
+    seed, number, name = SPRINGS_UP
+    plan = _plan(seed, number, "ordinary")
+    assert (plan.flaps[name].status, len(plan.order)) == ("blocked", 3)
+    assert "come to lie on the ends of flaps that overlap" in (plan.flaps[name].reason or "")
+    assert _all_held(seed, number, "ordinary", plan)

@@ -128,11 +128,12 @@ pub fn overlap_closed(a: &Flap, b: &Flap) -> bool {
 }
 
 /// The angle at which a flap comes to lie on the corners of another that stands at an angle, `over_m` above its middle; the ends
-/// of a neighbour give way.
-pub fn propped_rad(flap: &Flap, below: &Flap, below_rad: f64, over_m: f64) -> f64 {
-    let gives_m = if are_opposite(flap, below) { 0.0 } else { GIVING_END_M };
+/// of a neighbour give way, and its free edge too unless it lies `hard`, on what gives way no further.
+pub fn propped_rad(flap: &Flap, below: &Flap, below_rad: f64, over_m: f64, hard: bool) -> f64 {
+    let ends_m = if are_opposite(flap, below) { 0.0 } else { GIVING_END_M };
+    let edges_m = if hard { 0.0 } else { ends_m };
     let (frame, closed) = (below.frame(below_rad), flap.frame(0.0));
-    let corners = shortened(&below.corners(below_rad), gives_m, gives_m)
+    let corners = shortened(&below.corners(below_rad), ends_m, edges_m)
         .map(|corner| closed.coordinates(&(corner + frame.outward * over_m)));
     corners.iter().map(|corner| corner.z.atan2(corner.y.max(1e-6))).fold(0.0, f64::max)
 }
@@ -249,11 +250,16 @@ mod tests {
         // 0.27 m over a box of 0.3 m: the edge is 0.03 m from the hinge across; of one of 0.1 m, 0.2 m.
         let counted = [(0.27, 0.03), (0.1, 0.2f64)].map(|(length_m, left_m)| {
             let carton = carton(0.004, [length_m; 4]);
-            let propped = |below_rad, over_m| propped_rad(&carton.flaps[0], &carton.flaps[2], below_rad, over_m);
+            let propped = |below_rad, over_m| propped_rad(&carton.flaps[0], &carton.flaps[2], below_rad, over_m, true);
             assert!((propped(0.0, 0.004) - (0.004f64 / left_m).atan()).abs() < 1e-9, "{length_m}");
             assert!(propped(0.1, 0.004) > propped(0.0, 0.004) && propped(0.0, 0.0) < 1e-9);
             // Of a neighbour that lies flat, nothing.
-            assert!(propped_rad(&carton.flaps[0], &carton.flaps[1], 0.0, 0.0) < 1e-9);
+            assert!(propped_rad(&carton.flaps[0], &carton.flaps[1], 0.0, 0.0, true) < 1e-9);
+            // Of one that has sprung up, its corner 0.019 m from the hinge; as far in from its free edge where that gives way.
+            let [hard, soft] =
+                [true, false].map(|hard| propped_rad(&carton.flaps[0], &carton.flaps[1], 0.02, 0.0, hard));
+            assert!((hard - (length_m * 0.02f64.sin() / 0.019).atan()).abs() < 1e-9, "{length_m}: {hard}");
+            assert!((soft.tan() / hard.tan() - (1.0 - 0.015 / length_m)).abs() < 1e-9, "{length_m}: {soft}");
         });
         assert_eq!(counted.len(), 2);
     }

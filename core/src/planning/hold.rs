@@ -9,8 +9,8 @@ use super::push::PushMotion;
 /// How far a flap that sprang up is pressed down again, between where it was held, where it lies on boards itself, and where its crease
 /// alone would let it go: chosen by what stacks of flaps do in physics.
 const PRESSED_SHARE: f64 = 0.8;
-/// Boards that cross at an edge crush it: what is left of their thickness there.
-const CRUSHED_SHARE: f64 = 0.4;
+/// Boards that cross at an edge crush it: what is left of their thickness there, as physics has it (docs/physics.md).
+const CRUSHED_M: f64 = 0.002;
 
 impl<G: Guard> Closer<'_, G> {
     /// How far a flap is pushed: less where it comes to lie on others or carries a tuck.
@@ -46,14 +46,44 @@ impl<G: Guard> Closer<'_, G> {
         let lies_over = |a: usize, b: usize| are_opposite(&flaps[a], &flaps[b]) && overlap_closed(&flaps[a], &flaps[b]);
         let stacked = |k: usize| lies_over(flap, k) || below.iter().any(|&other| lies_over(k, other));
         let props = below.iter().copied().filter(|&k| stacked(k)).map(|k| {
-            let (fold, rest_rad) = (&self.load.folds[k], moment.angles_rad[k]);
-            let (held_rad, free_rad) = (fold.held_rad(rest_rad).max(0.0), (rest_rad - fold.return_rad).max(0.0));
-            let pressed_rad = held_rad + (free_rad - held_rad) * PRESSED_SHARE;
-            let board_m = if are_opposite(&flaps[flap], &flaps[k]) { self.problem.thickness_m } else { 0.0 };
-            let over_m = CRUSHED_SHARE * board_m;
-            propped_rad(&flaps[flap], &flaps[k], pressed_rad, over_m)
+            let over_m = self.crossing_m(flap, k);
+            let soft_rad = propped_rad(&flaps[flap], &flaps[k], self.pressed_rad(k, moment), over_m, false);
+            let hard_rad = self.lowest_rad(k, below, moment);
+            hard_rad.map_or(soft_rad, |at_rad| soft_rad.max(propped_rad(&flaps[flap], &flaps[k], at_rad, over_m, true)))
         });
         props.max_by(f64::total_cmp)
+    }
+
+    /// How far a flap that lies is pressed down by what comes down near its hinge.
+    fn pressed_rad(&self, flap: usize, moment: &Moment) -> f64 {
+        let (fold, rest_rad) = (&self.load.folds[flap], moment.angles_rad[flap]);
+        let (held_rad, free_rad) = (fold.held_rad(rest_rad).max(0.0), (rest_rad - fold.return_rad).max(0.0));
+        held_rad + (free_rad - held_rad) * PRESSED_SHARE
+    }
+
+    /// Lower than this nothing presses a flap that lies on the one across from it, where that lies on the rims: boards on boards give
+    /// way no further. Of two the upper is the one that was held higher. None where nothing stops it.
+    fn lowest_rad(&self, flap: usize, below: &[usize], moment: &Moment) -> Option<f64> {
+        let flaps = &self.problem.flaps;
+        let held_rad = |k: usize| self.load.folds[k].held_rad(moment.angles_rad[k]);
+        let is_under = |&k: &usize| {
+            are_opposite(&flaps[flap], &flaps[k])
+                && overlap_closed(&flaps[flap], &flaps[k])
+                && held_rad(k) < held_rad(flap)
+                && stopped_by_rims(self.problem, k, -self.settings.rest_aim_rad, self.settings)
+        };
+        let across = below.iter().copied().find(is_under);
+        across.map(|k| propped_rad(&flaps[flap], &flaps[k], 0.0, self.crossing_m(flap, k), true))
+    }
+
+    /// How far above the middle of one flap that of another comes to lie that crosses its edge; neighbours lie flush.
+    fn crossing_m(&self, upper: usize, lower: usize) -> f64 {
+        let flaps = &self.problem.flaps;
+        if are_opposite(&flaps[upper], &flaps[lower]) {
+            CRUSHED_M.min(self.problem.thickness_m)
+        } else {
+            0.0
+        }
     }
 
     /// Where a flap rests after a push: closed or not, it lies.

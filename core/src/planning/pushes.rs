@@ -11,7 +11,7 @@ use super::known::{Force, Tried};
 use super::orientations::OrientationGrid;
 use super::planes::PlanesSearch;
 use super::push::{closed_finger, layers_between, PushMotion, Pusher};
-use super::reason::{Obstacle, WhyNot};
+use super::reason::{Obstacle, Status, WhyNot};
 use super::request::Method;
 use super::settings::PlanningSettings;
 
@@ -27,7 +27,14 @@ impl<G: Guard> Closer<'_, G> {
         let mut tried = Err(WhyNot::not_searched());
         for effort in effort.up_to() {
             let plan = || self.push_anew(flap, moment, effort);
-            tried = self.margins.push(flap, moment, Force::Careful(effort), plan);
+            let again = self.margins.push(flap, moment, Force::Careful(effort), plan);
+            tried = match (tried, again) {
+                // An effort that the settings leave no search tells nothing that the one before did not.
+                (Err(why), Err(none)) if none.status == Status::OutOfTime => {
+                    Err(WhyNot { by_flaps: why.by_flaps || none.by_flaps, ..why })
+                }
+                (_, again) => again,
+            };
             if tried.as_ref().map_or_else(|why| !why.searched, |_| true) {
                 break;
             }
@@ -106,7 +113,11 @@ impl<G: Guard> Closer<'_, G> {
         let rest_rad = first.last().map_or(moment.angles_rad[flap], |(_, rest_rad)| *rest_rad);
         let turned = moment.left(flap, rest_rad);
         let push = self.careful_push(flap, &turned, hold_rad, USUAL);
-        let push = push.or_else(|_| self.pusher(flap, &turned, hold_rad, f64::INFINITY, USUAL).plan())?;
+        let push = push.or_else(|why| match why.moves_box {
+            true => self.pusher(flap, &turned, hold_rad, f64::INFINITY, USUAL).plan(),
+            // Nothing was left out for its load where the way ended: more force leads no further.
+            false => Err(why),
+        })?;
         Ok(PushMotion { first: first.into_iter().map(|(motion, _)| motion).collect(), ..push })
     }
 
@@ -125,7 +136,8 @@ impl<G: Guard> Closer<'_, G> {
     /// The boards that keep a flap open, whatever the arm does.
     fn kept_open(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Option<Obstacle> {
         met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings).or_else(|| {
-            let is_propped = hold_rad > self.settings.most_propped_rad;
+            let (settings, rest_rad) = (self.settings, self.load.folds[flap].rest_rad(hold_rad));
+            let is_propped = hold_rad > settings.most_propped_rad || rest_rad > settings.most_propped_rest_rad;
             is_propped.then(|| Obstacle::Propped { flap: self.problem.flaps[flap].name.clone() })
         })
     }

@@ -28,8 +28,10 @@ pub struct PlanningSettings {
     pub short_on_stacks_rad: f64,
     /// What cannot be pushed so far is let go where it still comes to rest closed, if that is as far from closed as this.
     pub least_lay_rad: f64,
-    /// A flap that others prop up higher than this is left open.
+    /// A flap that others prop up higher than this is left open, and one that would spring back from there to more than the second:
+    /// up to 30 degrees a flap that lies on closed ones counts as closed.
     pub most_propped_rad: f64,
+    pub most_propped_rest_rad: f64,
     /// Boards that come nearer to a flap than this on their way down are taken to stop it.
     pub rim_gap_m: f64,
     /// What is taken for granted of folds and weight, and the greatest share of what moves the box that a push may be. A flap below
@@ -205,6 +207,7 @@ impl Default for PlanningSettings {
             short_on_stacks_rad: 2.5f64.to_radians(),
             least_lay_rad: 2f64.to_radians(),
             most_propped_rad: 20f64.to_radians(),
+            most_propped_rest_rad: 28f64.to_radians(),
             rim_gap_m: 0.0003,
             assumed: Assumed::default(),
             most_strain: 0.85,
