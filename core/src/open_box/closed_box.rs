@@ -12,6 +12,7 @@ use super::shells::overlap;
 use super::sight::Sight;
 use super::start::body_of;
 use super::sure::drop_unsure;
+use super::told::few_panels;
 use super::yaw::yaws;
 use crate::fit::{canonical_turn, layout, FitSettings, FittedBody, Role};
 use crate::geometry::Vec3;
@@ -26,8 +27,7 @@ const MOST_FITTED: usize = 24;
 const MOST_LID_RAD: f64 = 0.05;
 /// It reaches from wall to wall, within this share.
 const TOP_SHARE: f64 = 0.12;
-/// Panels that are seen, of which one is the top, and the share of what is looked at of them that is met.
-const LEAST_PANELS: usize = 3;
+/// Of what is looked at of its panels that are seen the share that is met.
 const LEAST_MET: f64 = 0.85;
 /// Smaller things are no cartons, metres.
 const LEAST_M: [(usize, f64); 3] = [(layout::LENGTH, 0.1), (layout::WIDTH, 0.1), (layout::HEIGHT, 0.03)];
@@ -105,7 +105,7 @@ fn closed(sight: &Sight, proposal: &Proposal, settings: &FitSettings) -> Option<
     let outer = evidence.iter().filter(|(role, _)| !is_inner(*role));
     let (met, through) = outer.fold((0.0, 0.0), |(met, through), (_, e)| (met + e.met, through + e.through));
     let seen = labels.parts.iter().filter(|(_, points)| !points.is_empty()).count();
-    let is_box = seen >= LEAST_PANELS
+    let is_box = few_panels(seen).is_none()
         && !labels.of(Role::Flap(TOP)).is_empty()
         && met > LEAST_MET * (met + through)
         && LEAST_M.iter().all(|&(place, least_m)| solution.body.get(place) > least_m);

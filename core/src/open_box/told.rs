@@ -8,7 +8,7 @@ use super::refused::Refusal;
 use crate::fit::Role;
 
 /// An object has at least so many panels with enough readings.
-pub const LEAST_PANELS: usize = 3;
+const LEAST_PANELS: usize = 3;
 
 /// Why a finished box is no object; `None` of one that is told.
 pub fn refusal(found: &FoundBox, judgement: Option<&Judgement>) -> Option<Refusal> {
