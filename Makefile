@@ -83,7 +83,7 @@ fuzz: ## Each reader's fuzz target for SECONDS (needs nightly Rust and cargo-fuz
 WEIGHTS := src/boxwright/models/weights
 SETS := out/sets
 
-weights: setup ## Make the training frames and learn the shipped weights anew (about two hours)
+weights: setup ## Make the training frames and learn the shipped weights anew (takes hours)
 	$(BIN)/boxwright synth $(SETS)/train --count 180 --seed 1
 	$(BIN)/boxwright synth $(SETS)/train_none --count 30 --seed 2 --category none
 	$(MAKE) --no-print-directory weights-of PLANES=grid
