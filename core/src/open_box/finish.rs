@@ -20,7 +20,6 @@ use super::refit::refit;
 use super::sight::Sight;
 use super::slots::height_by_slots;
 use super::sure::drop_unsure;
-use super::told::refusal;
 use crate::fit::{
     canonical_turn, layout, share_of_score, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role,
     Solution,
@@ -87,15 +86,7 @@ impl Finishing<'_> {
         let grown = grow(self.sight, &lower, &flaps, self.settings);
         let lower = grown.map(|grown| FoundBox { rivals: found.rivals, size: found.size, ..grown });
         match lower.map(|lower| self.finish(lower)) {
-            Some(Ok(lower)) if self.rank(&lower) > BELOW_SLOTS * self.rank(&found) => {
-                let lower = self.while_better(lower);
-                let is_told = |one: &FoundBox| refusal(one, self.judgement).is_none();
-                if is_told(&lower) || !is_told(&found) {
-                    lower
-                } else {
-                    found
-                }
-            }
+            Some(Ok(lower)) if self.rank(&lower) > BELOW_SLOTS * self.rank(&found) => self.while_better(lower),
             _ => found,
         }
     }
