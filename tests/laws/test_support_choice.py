@@ -22,9 +22,13 @@ WALLS = [
 """Larger in the image than the table that the box stands on: each of these was taken for the floor."""
 BARE = [("large", 8101, 68, None)]
 """The image's edges cut the box all around, so that nothing stands on the floor by its outline."""
+TABLES = [("medium", 8501, 55, None), ("cake", 6001, 100, None)]
+"""Seen from so far above that nothing is seen to stand on the table: the floor beside it was taken."""
+TOPS = [("lying", 8505, 42, 1)]
+"""A large box's upper face is as level as a table, and as high."""
 
 
-@pytest.mark.parametrize(("category", "seed", "index", "boxes"), [*FLAPS, *WALLS, *BARE])
+@pytest.mark.parametrize(("category", "seed", "index", "boxes"), [*FLAPS, *WALLS, *BARE, *TABLES, *TOPS])
 def test_the_support_is_what_the_box_stands_on(category: str, seed: int, index: int, boxes: int | None) -> None:
     frame = make_frame(category, seed, index, boxes=boxes)
     seen = perceive(cloud_of(frame))

@@ -27,6 +27,9 @@ const MIN_TABLE_HEIGHT_M: f64 = 0.35;
 const MIN_TABLE_M2: f64 = 0.15;
 /// Of what stands on a table so much lies over it: beside a closed lid flaps begin, and lean away.
 const MIN_OVER_TABLE: f64 = 0.25;
+/// Where nothing is seen to stand on it, so many times more lies over a table than beside it below: the top of a box has its flaps
+/// there.
+const MIN_OVER_BELOW: f64 = 4.0;
 /// Cells behind the support's own readings that may be seen through holes, and how many times those above it they are
 /// where it is seen from the wrong side.
 const MIN_THROUGH: usize = 12;
@@ -157,7 +160,7 @@ fn choose(
     if settings.up.is_none() && !organized {
         refuse_rivals(candidates, best, bare)?;
     }
-    Ok(Some(best.clone()))
+    Ok(Some(table_on(best, candidates).clone()))
 }
 
 fn best_by<'a>(
@@ -189,14 +192,20 @@ fn prior(footing: &Footing, organized: bool) -> f64 {
     (-UPSIDE_DOWN_RATE * downwards - SIDEWAYS_RATE * sideways).exp()
 }
 
+/// Whether things stand on a plane, or lie over it: from straight above none of their sides is seen.
+fn bears(footing: &Footing) -> bool {
+    let above = footing.above as f64;
+    let is_stood_on = footing.standing >= MIN_STANDING && above >= MIN_OVER_TABLE * footing.standing;
+    is_stood_on || above >= MIN_STANDING.max(MIN_OVER_BELOW * footing.below as f64)
+}
+
 /// The highest table that bears things over the floor, else the floor itself.
 fn table_on<'a>(floor: &'a (usize, Footing), candidates: &'a [(usize, Footing)]) -> &'a (usize, Footing) {
     let height_m = |f: &Footing| f.plane.distance - floor.1.plane.distance;
     let is_table = |(_, f): &&(usize, Footing)| {
         f.plane.normal.dot(&floor.1.plane.normal) > TABLE_LEVEL_COSINE
             && height_m(f) > MIN_TABLE_HEIGHT_M
-            && f.standing >= MIN_STANDING
-            && f.above as f64 >= MIN_OVER_TABLE * f.standing
+            && bears(f)
             && f.free_cells as f64 * f.cell_m.powi(2) > MIN_TABLE_M2
     };
     let tables = candidates.iter().filter(is_table);
