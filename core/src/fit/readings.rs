@@ -88,7 +88,12 @@ impl PartReadings {
         let information = (count as f64 / settings.readings_that_agree).min(settings.most_face_information);
         let told = if segment.ends.are_told() { segment.points } else { &[] };
         let coordinates = Coordinates::new(told, panel.axes().map(|axis| start.input_from_object * axis), sensor);
-        let ends = (0..4).flat_map(|end| end_readings(segment, &coordinates, sensor, settings, end)).collect();
+        let ends = (0..4).flat_map(|end| end_readings(segment, &coordinates, sensor, settings, end));
+        let ends = ends.filter(|reading| {
+            let may_be_another_s = matches!((segment.ends, segment.role), (PartEnds::Told(_), Role::Side(_)));
+            !may_be_another_s || covered(&panel, start, reading, face) > LEAST_COVERED
+        });
+        let ends = ends.collect();
         Self { role: segment.role, face, faces, face_information: information / taken.max(1) as f64, ends }
     }
 }
@@ -99,6 +104,18 @@ fn facing(panel: &Panel, start: &FittedBody, normal: &Vec3) -> f64 {
     } else {
         -1.0
     }
+}
+
+/// Readings that reach less far across a panel, share of it, do not tell where that ends: they are of its neighbour, which it meets
+/// where they are.
+const LEAST_COVERED: f64 = 0.3;
+
+/// Of the way from the end across to its own end, the share that a reading at that lies along it.
+fn covered(panel: &Panel, body: &FittedBody, reading: &EndReading, face: f64) -> f64 {
+    let place = body.to_object(&reading.point);
+    let beyond = |end: usize| panel.beyond(&place, end, face).value;
+    let across = beyond(reading.end ^ 1);
+    across / (across + beyond(reading.end))
 }
 
 /// Strips are at least this wide, pixels.
