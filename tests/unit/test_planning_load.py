@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from closing.creases import told as told_of
 from closing.problems import Problem, draw_problem
 
 from boxwright.planning import ask_bearable, assumed, measured_box, plan_closing
@@ -19,6 +20,11 @@ SLIDING = ((1134, 54), (1134, 96), (1134, 107))
 """By seed and number: boxes that slide far, and whose flaps stay open, where they are pushed regardless."""
 SMALL = 0
 """One none of whose flaps can be pushed where it weighs 0.2 kg."""
+
+FALLING = (1136, 22, "flap_1")
+"""A lid by itself, heavier than a pre-broken crease of its bears."""
+DRAGGED = (1136, 144)
+"""A small box that slid where a finger on a flap's edge dragged it the way that its side leant."""
 
 NO_FORK = {"fork": {"most_depth_m": 0.0}}
 REGARDLESS = {"most_strain": 1e9, **NO_FORK}
@@ -98,6 +104,26 @@ def test_what_creases_give_back_is_pushed_beyond_closed() -> None:
         assert 0.0 <= rest_rad - first.hinge_angle_rad[-1] <= figures.return_rad + 1e-9
         counted += 1
     assert counted == 3
+
+
+def test_a_lid_that_would_fall_into_its_box_is_left_open() -> None:
+    seed, number, name = FALLING
+    problem = draw_problem(number, seed)
+    light, firm = (_plan(problem, told_of(crease)) for crease in ("pre_broken", "ordinary"))
+    assert (light.flaps[name].status, light.order) == ("blocked", ())
+    assert "would fall into the box" in (light.flaps[name].reason or "")
+    assert firm.flaps[name].status == "planned"
+    assert simulate(firm, problem.model, crease="ordinary").simulation.flaps[name].held
+
+
+def test_fingers_on_edges_are_held_so_that_their_drag_leaves_the_box() -> None:
+    seed, number = DRAGGED
+    problem = draw_problem(number, seed)
+    plan = _plan(problem, told_of("ordinary"))
+    run = simulate(plan, problem.model, crease="ordinary").simulation
+    assert len(plan.order) == 4
+    assert all(run.flaps[name].held for name in plan.order)
+    assert run.box_slid_m < 0.005
 
 
 def test_figures_that_are_none_are_refused() -> None:

@@ -47,7 +47,7 @@ STRANDED = {7: 2, 12: 1, 13: 2, 25: 1}
 STRAIGHT_ALONE = {"transit_tries": 0, "shortcuts": 0}
 # Not near its hinge, nor with the very tip.
 FIRMLY: dict[str, Any] = {"fine_contacts": {"least_lever": 0.2, "least_hook_m": 0.006, "most_lean": 0.95}}
-WIDE = {**FIRMLY, "beams": [16, 50, 60]}
+WIDE = {**FIRMLY, "beams": [16, 60]}
 USUAL = {"beams": [16, 50]}
 ONE_SEARCH = {"beams": [16]}
 PUSHED_HOME = {"least_lay_rad": 9.0}

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, UnitQuaternion};
 
 use super::flap::{Flap, FlapFrame};
-use super::load::{Fold, Stand};
+use super::load::{Fold, Stand, DRAG_SHARE};
 use super::orientations::OrientationGrid;
 use super::settings::PlanningSettings;
 use super::touch::{flap_from_tool, Finger, TurnedFinger};
@@ -117,12 +117,13 @@ impl<'a> Contacts<'a> {
         let aside = (touch.contact[0] / self.flap.hinge_length_m() - 0.5).abs();
         let contact = frame.at(contact.x, contact.y, contact.z);
         let strain = self.strain(frame, touch.contact[1], &contact, &touch.normal);
+        let dragging = self.strain(frame, touch.contact[1], &contact, &dragged(&touch.normal));
         let penalty = (1.0 - lever).max(0.0)
             + 0.6 * aside
             + (0.7 - into_face).max(0.0).powi(2)
             + (-into_face).max(0.0)
             + SLANT_WEIGHT * (1.0 - square)
-            + STRAIN_WEIGHT * strain.powi(2);
+            + STRAIN_WEIGHT * dragging.powi(2);
         Some(Grip {
             base_from_tool: Rigid::new(*base_from_tool, frame.at(tool.x, tool.y, tool.z)),
             contact,
@@ -131,7 +132,7 @@ impl<'a> Contacts<'a> {
         })
     }
 
-    /// Of a push along the touch's normal, at a lever, that overcomes crease and weight; 0 where the flap falls by itself.
+    /// Of a push against a direction, at a lever, that overcomes crease and weight; 0 where the flap falls by itself.
     fn strain(&self, frame: &FlapFrame, lever_m: f64, contact: &Vec3, normal: &Vec3) -> f64 {
         let Some(stand) = self.stand else { return 0.0 };
         let cos = frame.away.dot(&self.flap.inward).clamp(-1.0, 1.0);
@@ -141,6 +142,19 @@ impl<'a> Contacts<'a> {
         stand.strain(contact, &(pressed * -push_n)).max(0.0)
     }
 }
+
+/// A touch's normal with the drag of a finger that slips on an edge: the further the way that its side leans already.
+fn dragged(normal: &Vec3) -> Vec3 {
+    let aside = Vec3::new(normal.x, normal.y, 0.0);
+    let lean = aside.norm();
+    if lean < LEAST_LEAN {
+        return *normal;
+    }
+    normal + (aside * (normal.z / lean) - Vec3::z() * lean) * DRAG_SHARE
+}
+
+/// The sine of a lean that is none.
+const LEAST_LEAN: f64 = 0.05;
 
 /// What the strain squared counts in eq. 85.
 const STRAIN_WEIGHT: f64 = 1.5;

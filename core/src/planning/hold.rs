@@ -1,10 +1,11 @@
 //! How far a flap is pushed, and where it rests then.
 
-use super::boards::{are_opposite, overlap_closed, propped_rad, stopped_by_rims};
+use super::boards::{are_opposite, met, overlap_closed, propped_rad, stopped_by_box, stopped_by_rims};
 use super::closing::Closer;
 use super::flap::Standing;
 use super::guard::{Guard, Moment};
 use super::push::PushMotion;
+use super::reason::Obstacle;
 
 /// How far a flap that sprang up is pressed down again, between where it was held, where it lies on boards itself, and where its crease
 /// alone would let it go: chosen by what stacks of flaps do in physics.
@@ -16,18 +17,11 @@ impl<G: Guard> Closer<'_, G> {
     /// How far a flap is pushed: less where it comes to lie on others or carries a tuck.
     pub fn hold_rad(&self, flap: usize, moment: &Moment) -> f64 {
         let settings = self.settings;
-        let flaps = &self.problem.flaps;
-        let is_below = |k: &usize| {
-            *k != flap
-                && flaps[*k].standing != Standing::Absent
-                && moment.angles_rad[*k].abs() <= settings.lying_rad
-                && overlap_closed(&flaps[flap], &flaps[*k])
-        };
-        let below: Vec<usize> = (0..flaps.len()).filter(is_below).collect();
+        let below = self.lies_on(flap, moment);
         if let Some(propped_rad) = self.propped_rad(flap, &below, moment) {
             return propped_rad.max(settings.short_on_stacks_rad);
         }
-        if !below.is_empty() || !flaps[flap].tucks.is_empty() {
+        if !below.is_empty() || !self.problem.flaps[flap].tucks.is_empty() {
             return settings.short_on_others_rad;
         }
         let beyond_rad = self.load.folds[flap].return_rad - settings.rest_aim_rad;
@@ -37,6 +31,39 @@ impl<G: Guard> Closer<'_, G> {
         } else {
             hold_rad
         }
+    }
+
+    /// The closed flaps that a flap comes to lie on.
+    fn lies_on(&self, flap: usize, moment: &Moment) -> Vec<usize> {
+        let flaps = &self.problem.flaps;
+        let is_below = |k: &usize| {
+            *k != flap
+                && flaps[*k].standing != Standing::Absent
+                && moment.angles_rad[*k].abs() <= self.settings.lying_rad
+                && overlap_closed(&flaps[flap], &flaps[*k])
+        };
+        (0..flaps.len()).filter(is_below).collect()
+    }
+
+    /// Would a flap that is let go fall into the box, being heavier than its crease bears, while nothing lies below it? What hangs on
+    /// it holds it on the side across; one that stands in the way of others may fall.
+    pub fn falls_in(&self, flap: usize, moment: &Moment) -> bool {
+        let closed_rad = self.settings.closed_rad;
+        self.load.folds[flap].closing_n_m(closed_rad) < 0.0
+            && self.problem.flaps[flap].tucks.is_empty()
+            && !stopped_by_box(self.problem, flap, -closed_rad, self.settings)
+            && self.lies_on(flap, moment).is_empty()
+            && !self.is_in_the_way(flap, moment)
+    }
+
+    /// Does another flap that stands open meet this one on its way?
+    fn is_in_the_way(&self, flap: usize, moment: &Moment) -> bool {
+        let flaps = &self.problem.flaps;
+        let is_met = |k: usize| match met(self.problem, &moment.angles_rad, k, 0.0, self.settings) {
+            Some(Obstacle::Boards { other, .. }) => flaps[flap].is_own(&other),
+            _ => false,
+        };
+        (0..flaps.len()).any(|k| k != flap && moment.angles_rad[k] > self.settings.lying_rad && is_met(k))
     }
 
     /// Where a flap comes to lie on those of `below` that overlap the one across from them, or itself: boards on boards, which give

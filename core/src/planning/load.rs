@@ -44,7 +44,7 @@ const HELD_SHARE: f64 = 0.8;
 const SPIN_SHARE: f64 = 0.27;
 
 /// A finger that slips along the board drags it aside with this share of what it pushes with.
-const DRAG_SHARE: f64 = 0.3;
+pub const DRAG_SHARE: f64 = 0.3;
 
 /// From where a flap rests to where it was held, at the most.
 const HELD_STEPS: usize = 4;

@@ -82,6 +82,8 @@ impl<G: Guard> Closer<'_, G> {
         let pushed = |to_rad: f64| self.pusher(flap, moment, to_rad, most_strain, searches.clone()).plan();
         let short_rad = self.settings.short_on_others_rad;
         match pushed(hold_rad) {
+            // A second way to end it is not looked for where the widest search found none.
+            Err(why) if searches == Effort::Deep.searches() => Err(why),
             // Arms that cannot follow the flap beyond closed may still lay it down.
             Err(why) if hold_rad < 0.0 && why.at_rad.is_none_or(|at_rad| at_rad <= LATE_RAD) && !why.at_start => {
                 pushed(short_rad).or_else(|_| self.laid_short(flap, &why, &pushed)).map_err(|_| why)
@@ -136,6 +138,9 @@ impl<G: Guard> Closer<'_, G> {
     /// The boards that keep a flap open, whatever the arm does.
     fn kept_open(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Option<Obstacle> {
         met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings).or_else(|| {
+            if self.falls_in(flap, moment) {
+                return Some(Obstacle::Falls { flap: self.problem.flaps[flap].name.clone() });
+            }
             let (settings, rest_rad) = (self.settings, self.load.folds[flap].rest_rad(hold_rad));
             let is_propped = hold_rad > settings.most_propped_rad || rest_rad > settings.most_propped_rest_rad;
             is_propped.then(|| Obstacle::Propped { flap: self.problem.flaps[flap].name.clone() })

@@ -21,6 +21,8 @@ pub enum Obstacle {
     Boards { flap: String, other: String },
     /// Flaps that are closed keep it up.
     Propped { flap: String },
+    /// Nothing holds it up once it is closed.
+    Falls { flap: String },
     /// The arm cannot follow without a jump of its joints.
     Jump,
     /// There is no way from the arm's posture before to this flap, or back.
@@ -56,6 +58,7 @@ impl fmt::Display for Obstacle {
             Self::Propped { flap } => {
                 write!(f, "{flap} would come to lie on the ends of flaps that overlap, far from closed")
             }
+            Self::Falls { flap } => write!(f, "{flap} is heavier than its crease bears: it would fall into the box"),
             Self::Jump => write!(f, "the arm would have to change its posture while pushing"),
             Self::NoWay { to } => write!(f, "no way was found {to}"),
         }

@@ -30,8 +30,20 @@ impl<G: Guard> Closer<'_, G> {
         let ends = (0..).map(|part| stuck_rad + settings.layer_rad + f64::from(part) * settings.fork.least_part_rad);
         let ends = ends.take_while(|&to_rad| to_rad <= start_rad - settings.fork.least_part_rad / 2.0);
         let bears = |to_rad: &f64| self.load.strain_at(self.problem, flap, *to_rad) <= settings.most_strain;
+        let mut reached_rad = f64::NEG_INFINITY;
         for to_rad in ends.filter(bears) {
-            let Some((motion, rest_rad)) = self.pushed_to(flap, moment, to_rad) else { continue };
+            // What the search for another end did not come to, this one will not come to either.
+            if to_rad < reached_rad - settings.layer_rad {
+                continue;
+            }
+            let (motion, rest_rad) = match self.pushed_to(flap, moment, to_rad) {
+                Ok(stage) => stage,
+                Err(short) if short.at_start => break,
+                Err(short) => {
+                    reached_rad = short.at_rad.unwrap_or(reached_rad);
+                    continue;
+                }
+            };
             let turned = moment.left(flap, rest_rad);
             // It does not come to rest exactly there: a finger that comes along the board would catch on it.
             let lifted = PlanningSettings { slide_off_m: 0.0, ..self.settings_of(flap).clone() };
@@ -54,8 +66,8 @@ impl<G: Guard> Closer<'_, G> {
         }
         let in_part = || self.forked(flap, moment, start_rad - fork.least_part_rad);
         let pushed = self.parts_rad(flap, start_rad);
-        let stages =
-            std::iter::once_with(in_part).chain(pushed.into_iter().map(|to_rad| self.pushed_to(flap, moment, to_rad)));
+        let stages = std::iter::once_with(in_part)
+            .chain(pushed.into_iter().map(|to_rad| self.pushed_to(flap, moment, to_rad).ok()));
         stages.flatten().find_map(|stage| {
             let turned = moment.left(flap, stage.1);
             let mut rest = self.in_stages(flap, &turned, most - 1)?;
@@ -95,10 +107,10 @@ impl<G: Guard> Closer<'_, G> {
     }
 
     /// Pushed to an angle with a reserve to what moves the box; one search alone.
-    fn pushed_to(&self, flap: usize, moment: &Moment, to_rad: f64) -> Option<Stage> {
+    fn pushed_to(&self, flap: usize, moment: &Moment, to_rad: f64) -> Result<Stage, WhyNot> {
         let pusher = self.pusher(flap, moment, to_rad, self.settings.most_strain, FIRST);
         let rest_rad = self.load.folds[flap].rest_rad(to_rad);
-        let motion = Pusher { rest_rad, ..pusher }.plan().ok()?;
-        Some((motion, rest_rad))
+        let motion = Pusher { rest_rad, ..pusher }.plan()?;
+        Ok((motion, rest_rad))
     }
 }
