@@ -23,7 +23,7 @@ const NEARLY: f64 = 0.9;
 
 /// The set of boxes that leave each other's readings alone and rank highest together, best first.
 pub fn choose(found: &[FoundBox], width: usize) -> Vec<Chosen> {
-    let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref()) * one.probability;
+    let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref()) * one.slots * one.probability;
     let mut found: Vec<&FoundBox> = found.iter().filter(|one| one.score > LEAST_SCORE).collect();
     found.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     let ranks: Vec<f64> = found.iter().map(|one| rank(one)).collect();

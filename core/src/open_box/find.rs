@@ -10,7 +10,7 @@ use super::judgement::Judgement;
 use super::last_fits::last_fits;
 use super::patch::Patch;
 use super::refused::Refused;
-use super::shells::{lies, outer_m, overlap, shells, Shell};
+use super::shells::{alike, lies, outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
 use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, FittedBody, KnownSize};
@@ -21,6 +21,8 @@ use crate::perception::Scene;
 const RIVALS_FITTED: usize = 8;
 /// The same of proposals of boxes on their side.
 const LYING_FITTED: usize = 4;
+/// Proposals whose walls are all this near to each other fit alike.
+const TWINS_M: f64 = 0.016;
 /// How well a proposal's lengths are known.
 const PROPOSED_SIGMA_M: f64 = 0.01;
 
@@ -85,7 +87,8 @@ fn best_of_rivals(shells: &[Shell]) -> Vec<&Shell> {
         let is_lying = lies(&shell.proposal);
         let rivals = out.iter().filter(|other| lies(&other.proposal) == is_lying);
         let most = if is_lying { LYING_FITTED } else { RIVALS_FITTED };
-        if rivals.filter(|other| overlap(&other.proposal, &shell.proposal)).count() < most {
+        let is_new = out.iter().all(|other| !alike(&other.proposal, &shell.proposal, TWINS_M));
+        if is_new && rivals.filter(|other| overlap(&other.proposal, &shell.proposal)).count() < most {
             out.push(shell);
         }
     }

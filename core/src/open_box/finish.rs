@@ -105,7 +105,7 @@ impl Finishing<'_> {
     /// What it holds, times the probability that it is a box, and one of a known size.
     fn rank(&self, one: &FoundBox) -> f64 {
         let judged = self.judgement.map_or(1.0, |judgement| judgement.box_probability(&one.features));
-        one.score * share_of_score(one.size.as_ref()) * judged
+        one.score * share_of_score(one.size.as_ref()) * one.slots * judged
     }
 
     /// With its tuck flaps, fitted to all of its readings; it takes the size that it matches, if any.

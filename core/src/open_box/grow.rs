@@ -10,6 +10,7 @@ use super::labels::{roles, Labels, Present};
 use super::refit::refit;
 use super::settle::is_sunk;
 use super::sight::Sight;
+use super::slots::likelihood_of_slots;
 use super::sure::{drop_unsure, long_enough};
 use crate::fit::{check, layout, FitSettings, FittedBody, NotFitted, Role, SizeMatch, Solution};
 
@@ -25,6 +26,8 @@ pub struct FoundBox {
     pub probability: f64,
     /// The given size that comes nearest; of a finished box, the one that it has.
     pub size: Option<SizeMatch>,
+    /// Of flaps that stand up, what the corners between them say against higher sides, at most 1.
+    pub slots: f64,
     /// Other fitted boxes that want its readings.
     pub rivals: usize,
     /// Why the fit to all of its readings did not end, where its body is that of fewer.
@@ -50,6 +53,7 @@ impl FoundBox {
             score,
             probability: 1.0,
             size: None,
+            slots: 1.0,
             rivals: 0,
             of_fewer: None,
             features: Vec::new(),
@@ -134,5 +138,6 @@ pub fn weigh(sight: &Sight, solution: Solution, present: Present, stride: usize)
     let look = |role: Role| (role, Sheet::new(&solution.body, role, &sight.eye).look(sight, FINE_M));
     let evidence: Vec<(Role, Evidence)> = roles(&present).into_iter().map(look).collect();
     let score = score(sight, &solution.body, &labels, &evidence);
-    FoundBox::unjudged(solution, present, labels, evidence, score)
+    let slots = likelihood_of_slots(sight, &solution.body, &present);
+    FoundBox { slots, ..FoundBox::unjudged(solution, present, labels, evidence, score) }
 }

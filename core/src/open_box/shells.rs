@@ -54,7 +54,7 @@ pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
     for shell in all {
         let of_its_kind = || out.iter().filter(|other| lies(&other.proposal) == lies(&shell.proposal));
         let rivals = of_its_kind().filter(|other| overlap(&other.proposal, &shell.proposal)).count();
-        let is_new = rivals < RIVALS && !of_its_kind().any(|other| alike(&other.proposal, &shell.proposal));
+        let is_new = rivals < RIVALS && !of_its_kind().any(|other| alike(&other.proposal, &shell.proposal, ALIKE_M));
         if is_new && of_its_kind().count() < if lies(&shell.proposal) { MOST_LYING } else { MOST_SHELLS } {
             out.push(shell);
         }
@@ -108,9 +108,10 @@ const ALIKE_M: f64 = 0.009;
 /// What stands on one support has ways up nearer than this.
 const ALIKE_UP_COS: f64 = 0.7;
 
-fn alike(a: &Proposal, b: &Proposal) -> bool {
+/// Whether all walls of two proposals are this near to each other.
+pub fn alike(a: &Proposal, b: &Proposal, most_m: f64) -> bool {
     let same_axes = a.axes[0].dot(&b.axes[0]) > 0.998 && a.up.dot(&b.up) > 0.9993;
-    let near = |x: &[f64; 2], y: &[f64; 2]| (x[0] - y[0]).abs() < ALIKE_M && (x[1] - y[1]).abs() < ALIKE_M;
+    let near = |x: &[f64; 2], y: &[f64; 2]| (x[0] - y[0]).abs() < most_m && (x[1] - y[1]).abs() < most_m;
     same_axes && near(&a.spans[0], &b.spans[0]) && near(&a.spans[1], &b.spans[1]) && near(&a.heights, &b.heights)
 }
 

@@ -1,6 +1,7 @@
 //! Flaps that stand up continue their sides: nothing but the slots between them, open at the corners, tells where the sides end.
 
 use super::grow::FINE_M;
+use super::labels::Present;
 use super::sight::{Says, Sight};
 use crate::fit::{layout, FittedBody, Rim};
 use crate::geometry::Vec3;
@@ -35,6 +36,26 @@ pub fn height_by_slots(sight: &Sight, body: &FittedBody) -> Option<f64> {
     let best = told.reduce(|best, one| if one.0 > best.0 { one } else { best })?;
     let range_m = (body.to_input(&Vec3::new(0.0, 0.0, best.1)) - sight.eye).norm();
     (best.0 >= LEAST_ODDS).then(|| (best.1 - CLOSED_PX * sight.pixel_rad * range_m).max(LEAST_M))
+}
+
+/// A flap within so much of upright may as well be the top of its side.
+const STANDING_RAD: f64 = 0.1;
+
+/// How much likelier what is seen of the corners between flaps that stand up is with slots in them than if the sides went on, at
+/// most 1 (eq. 104): 1 where no two neighbours stand.
+pub fn likelihood_of_slots(sight: &Sight, body: &FittedBody, present: &Present) -> f64 {
+    let flap = |k: usize, number: usize| body.get(layout::flap(k % 4) + number);
+    let stands = |k: usize| {
+        let upright = (flap(k, layout::FLAP_ANGLE) - std::f64::consts::FRAC_PI_2).abs() < STANDING_RAD;
+        present.flaps[k % 4] && upright && flap(k, layout::FLAP_LENGTH) > LEAST_M
+    };
+    let of_corner = |k: usize| {
+        let mut higher = body.clone();
+        higher.numbers[layout::HEIGHT] += flap(k, layout::FLAP_LENGTH).min(flap(k + 1, layout::FLAP_LENGTH));
+        odds_of_corner(&corner(sight, &higher, k), body.get(layout::HEIGHT))
+    };
+    let log_odds: f64 = (0..4).filter(|&k| stands(k) && stands(k + 1)).map(of_corner).sum();
+    log_odds.exp().min(1.0)
 }
 
 /// Up the edge between sides `k` and `k + 1`: heights at which something is seen there, and whether it lies behind the edge.
