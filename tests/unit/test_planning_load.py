@@ -22,7 +22,7 @@ SMALL = 0
 """One none of whose flaps can be pushed where it weighs 0.2 kg."""
 
 FALLING = (1136, 22, "flap_1")
-"""A lid by itself, heavier than a pre-broken crease of its bears."""
+"""A lid by itself, heavier than a pre-broken crease of its length bears."""
 DRAGGED = (1136, 144)
 """A small box that slid where a finger on a flap's edge dragged it the way that its side leant."""
 

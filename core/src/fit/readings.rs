@@ -89,11 +89,10 @@ impl PartReadings {
         let told = if segment.ends.are_told() { segment.points } else { &[] };
         let coordinates = Coordinates::new(told, panel.axes().map(|axis| start.input_from_object * axis), sensor);
         let ends = (0..4).flat_map(|end| end_readings(segment, &coordinates, sensor, settings, end));
-        let ends = ends.filter(|reading| {
-            let may_be_another_s = matches!((segment.ends, segment.role), (PartEnds::Told(_), Role::Side(_)));
-            !may_be_another_s || covered(&panel, start, reading, face) > LEAST_COVERED
-        });
-        let ends = ends.collect();
+        // Those of a segment are one surface's; those near a side that was only asked for may be its neighbour's.
+        let is_asked_side = matches!((segment.ends, segment.role), (PartEnds::Told(_), Role::Side(_)));
+        let tells = |reading: &EndReading| !is_asked_side || covered(&panel, start, reading, face) > LEAST_COVERED;
+        let ends = ends.filter(tells).collect();
         Self { role: segment.role, face, faces, face_information: information / taken.max(1) as f64, ends }
     }
 }
@@ -106,11 +105,10 @@ fn facing(panel: &Panel, start: &FittedBody, normal: &Vec3) -> f64 {
     }
 }
 
-/// Readings that reach less far across a panel, share of it, do not tell where that ends: they are of its neighbour, which it meets
-/// where they are.
+/// Readings that reach over less of a side do not tell where that ends: they are of its neighbour, which it meets where they are.
 const LEAST_COVERED: f64 = 0.3;
 
-/// Of the way from the end across to its own end, the share that a reading at that lies along it.
+/// How far along the way from the end across to its own a reading lies, share of that way.
 fn covered(panel: &Panel, body: &FittedBody, reading: &EndReading, face: f64) -> f64 {
     let place = body.to_object(&reading.point);
     let beyond = |end: usize| panel.beyond(&place, end, face).value;
