@@ -194,6 +194,16 @@ def test_where_the_first_choice_is_not_told_the_rest_is_chosen_from() -> None:
     assert any(one.dimensions is not None and size_error_m(one.dimensions, true) < 0.008 for one in objects)
 
 
+def test_a_filled_slot_speaks_for_no_other_box() -> None:
+    """Few pixels between two flaps that stand up, and nothing behind them: no body with higher sides competes."""
+    (found,) = boxwright.infer(cloud_of(make_frame("large", 8601, 158))).model.objects
+    assert found.dimensions is not None
+    assert size_error_m(found.dimensions, (0.534, 0.404, 0.263)) < 0.01
+    seen = {part.name for part in found.parts if part.observed}
+    angles_deg = [np.degrees(joint.position) for joint in found.joints if joint.child in seen]
+    assert sorted(angles_deg) == pytest.approx([52.0, 92.0, 92.0, 216.0], abs=6.0)
+
+
 @pytest.mark.parametrize("index", [32, 44])
 def test_a_box_is_found_that_only_an_assignment_of_its_segments_proposes(index: int) -> None:
     """Walls, lids and rims propose bodies that rank below others; the best assignment (eq. 1) starts near."""

@@ -1,7 +1,7 @@
 //! Which of the fitted boxes stand in the scene: those that together hold most readings, none of them another's.
 
 use super::grow::FoundBox;
-use super::same::is_same;
+use super::same::{is_higher, is_same};
 use super::shells::LEAST_SCORE;
 use crate::fit::share_of_score;
 
@@ -23,10 +23,11 @@ const NEARLY: f64 = 0.9;
 
 /// The set of boxes that leave each other's readings alone and rank highest together, best first.
 pub fn choose(found: &[FoundBox], width: usize) -> Vec<Chosen> {
-    let rank = |one: &FoundBox| one.score * share_of_score(one.size.as_ref()) * one.slots * one.probability;
-    let mut found: Vec<&FoundBox> = found.iter().filter(|one| one.score > LEAST_SCORE).collect();
-    found.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
-    let ranks: Vec<f64> = found.iter().map(|one| rank(one)).collect();
+    let of_all: Vec<&FoundBox> = found.iter().filter(|one| one.score > LEAST_SCORE).collect();
+    let ranked = of_all.iter().map(|one| (rank(one, &of_all), *one));
+    let mut ranked: Vec<(f64, &FoundBox)> = ranked.collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let (ranks, found): (Vec<f64>, Vec<&FoundBox>) = ranked.into_iter().unzip();
     let cells: Vec<Vec<u32>> = found.iter().map(|one| cells(one, width)).collect();
     let excludes = |a: usize, b: usize| share(&cells[a], &cells[b]);
     let chosen = heaviest(&ranks, &excludes);
@@ -53,6 +54,13 @@ pub fn choose(found: &[FoundBox], width: usize) -> Vec<Chosen> {
         Chosen { one: with_rivals(found[number], count), instead }
     };
     chosen.iter().map(of).collect()
+}
+
+/// What a box holds, times the probability that it is one, and one of a known size. What its corners say of its flaps (eq. 104) they
+/// say against one of higher sides, where there is such a one.
+fn rank(one: &FoundBox, all: &[&FoundBox]) -> f64 {
+    let is_asked = one.slots < 1.0 && all.iter().any(|other| is_higher(other, one));
+    one.score * share_of_score(one.size.as_ref()) * one.probability * if is_asked { one.slots } else { 1.0 }
 }
 
 /// Whether one of two boxes is none, since they share too many readings.

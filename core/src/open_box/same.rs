@@ -30,6 +30,27 @@ fn is_same_at(one: &FoundBox, other: &FoundBox, turn: usize) -> bool {
     stands && is_as_large && (0..4).all(has_its_flap)
 }
 
+/// What both are told as is this near.
+const OUTLINE_M: f64 = 0.03;
+const OUTLINE_RAD: f64 = 0.1;
+/// Higher by less it is no other box.
+const HIGHER_M: f64 = 0.015;
+
+/// Whether the other stands where the one does, with sides that go on where those of the one end.
+pub fn is_higher(other: &FoundBox, one: &FoundBox) -> bool {
+    let is_higher_at = |turn: usize| {
+        let (a, b) = (&one.solution.body, &other.solution.body.turned(turn));
+        let (at, other_at) = (&a.input_from_object, &b.input_from_object);
+        let near = |place: usize| (a.get(place) - b.get(place)).abs() < OUTLINE_M;
+        (at.translation.vector - other_at.translation.vector).norm() < OUTLINE_M
+            && at.rotation.angle_to(&other_at.rotation) < OUTLINE_RAD
+            && near(layout::LENGTH)
+            && near(layout::WIDTH)
+            && b.get(layout::HEIGHT) > a.get(layout::HEIGHT) + HIGHER_M
+    };
+    (0..4).any(is_higher_at)
+}
+
 #[cfg(test)]
 mod tests {
     use nalgebra::{DMatrix, Isometry3, Translation3};
@@ -78,5 +99,32 @@ mod tests {
         let bent = |body: &mut FittedBody| body.numbers[flap + layout::FLAP_ANGLE] = 0.3;
         assert!(is_same(&found(|_| (), without), &found(bent, without)));
         assert!(!is_same(&one, &found(|_| (), without)));
+    }
+
+    #[test]
+    fn a_box_is_higher_whose_sides_go_on_upon_the_same_outline() {
+        type Change = fn(&mut FittedBody);
+        let changes: [(Change, bool); 6] = [
+            (|body| body.numbers[layout::HEIGHT] += 0.06, true),
+            (|body| body.numbers[layout::HEIGHT] += 0.01, false),
+            (|body| body.numbers[layout::HEIGHT] -= 0.06, false),
+            (|body| (body.numbers[layout::HEIGHT], body.numbers[layout::LENGTH]) = (0.26, 0.36), false),
+            (|body| (body.numbers[layout::HEIGHT], body.numbers[layout::WIDTH]) = (0.26, 0.32), true),
+            (
+                |body| {
+                    body.numbers[layout::HEIGHT] = 0.26;
+                    body.input_from_object.translation = Translation3::new(0.05, 0.0, 0.0);
+                },
+                false,
+            ),
+        ];
+        let one = found(|_| (), [false, true, false, false]);
+        for (number, (change, expected)) in changes.into_iter().enumerate() {
+            let other = found(change, [false; 4]);
+            for turn in 0..4 {
+                let turned = found(|body| *body = other.solution.body.turned(turn), [false; 4]);
+                assert_eq!(is_higher(&turned, &one), expected, "{number} {turn}");
+            }
+        }
     }
 }
