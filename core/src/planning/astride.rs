@@ -26,6 +26,9 @@ pub struct Astride {
     pub slack_rad: f64,
     /// How much of the couple turns the box about what is square to its hinge in the board, for each of what turns the flap.
     pub twist: f64,
+    /// The force along the board, towards the hinge, for each unit of the couple (1/m): the outer finger presses on the board's edge
+    /// along its own side's normal, which leans.
+    pub aside_per_m: f64,
 }
 
 /// All of them, the likeliest first.
@@ -35,20 +38,22 @@ pub fn all_astride(arm: &Arm, flap: &Flap, thickness_m: f64, settings: &ForkSett
         let open = flipped.filter_map(|astride| astride.opened(arm, flap, thickness_m, settings.gap_m));
         open.collect::<Vec<_>>()
     };
-    let [straight, turned] = [true, false].map(|is_straight| {
-        let yaws = settings.yaws_rad.iter().filter(|yaw_rad| (**yaw_rad == 0.0) == is_straight);
-        yaws.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, settings)).collect::<Vec<_>>()
-    });
+    let deep = |is_straight: bool| {
+        let yaws = settings.yaws_rad.iter().filter(move |yaw_rad| (**yaw_rad == 0.0) == is_straight);
+        yaws.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, &settings.depths, settings)).collect::<Vec<_>>()
+    };
+    let yaws = settings.yaws_rad.iter();
+    let shallow = yaws.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, &[settings.shallow], settings)).collect();
     let over_ends = over_ends(arm, flap, settings);
-    [straight, over_ends, turned].into_iter().flat_map(one_sided).collect()
+    [deep(true), over_ends, deep(false), shallow].into_iter().flat_map(one_sided).collect()
 }
 
 /// Over the free edge, the tool's axis turned in the board by `yaw_rad` from straight to the hinge.
-fn over_edge(flap: &Flap, yaw_rad: f64, settings: &ForkSettings) -> Vec<Astride> {
+fn over_edge(flap: &Flap, yaw_rad: f64, depths: &[f64], settings: &ForkSettings) -> Vec<Astride> {
     let toward = Vec3::new(yaw_rad.sin(), -yaw_rad.cos(), 0.0);
     let mut found = Vec::new();
     let reach_m = (flap.length_m() - settings.least_tip_m) / yaw_rad.cos();
-    for depth_m in settings.depths.map(|share| reach_m.min(settings.most_depth_m) * share) {
+    for depth_m in depths.iter().map(|share| reach_m.min(settings.most_depth_m) * share) {
         if depth_m < settings.least_depth_m {
             continue;
         }
@@ -63,6 +68,7 @@ fn over_edge(flap: &Flap, yaw_rad: f64, settings: &ForkSettings) -> Vec<Astride>
                 opening_m: 0.0,
                 slack_rad: 2.0 * settings.gap_m / depth_m,
                 twist: yaw_rad.tan(),
+                aside_per_m: lean_rad.tan() / depth_m,
             }));
         }
     }
@@ -93,6 +99,8 @@ fn over_ends(arm: &Arm, flap: &Flap, settings: &ForkSettings) -> Vec<Astride> {
                     opening_m: 0.0,
                     slack_rad: 2.0 * settings.gap_m / depth_m,
                     twist: 0.0,
+                    // Both fingers press on the board's faces.
+                    aside_per_m: 0.0,
                 }
             }));
         }
@@ -198,7 +206,7 @@ mod tests {
     #[test]
     fn fingers_come_flat_with_room_and_lean_until_both_nearly_touch() {
         let (arm, settings) = (Arm::from_toml(VIPER).unwrap(), ForkSettings::default());
-        let mut counted = [0; 3];
+        let (mut counted, mut aside) = ([0; 3], 0);
         for (k, length_m) in [0.026, 0.06, 0.15].into_iter().enumerate() {
             let flap = flap(length_m);
             for astride in all_astride(&arm, &flap, THICKNESS_M, &settings) {
@@ -211,9 +219,15 @@ mod tests {
                 assert!(least_m < settings.gap_m + 1e-5 && most_m < settings.gap_m + 0.006, "{least_m} {most_m}");
                 // Half way between hinge and free edge, or nearer to the edge.
                 assert!(astride.pivot.y > length_m / 2.0 && astride.pivot.y < length_m);
+                // Over the free edge the outer finger presses on the board's edge, over an end on its face.
+                let toward = astride.flat.column(2).y;
+                let expected = if toward < -0.5 { astride.lean_rad.tan() / (2.0 * astride.tip_m) } else { 0.0 };
+                assert!((astride.aside_per_m - expected).abs() < 1e-9, "{toward}: {}", astride.aside_per_m);
+                aside += usize::from(expected > 0.0);
                 counted[k] += 1;
             }
         }
+        assert!(aside > 100, "{aside}");
         assert!(counted[0] > 50 && counted[1] > 100 && counted[2] > 100, "{counted:?}");
     }
 }

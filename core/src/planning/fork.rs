@@ -1,5 +1,5 @@
 //! Turns a flap with the fingers astride its free edge. A couple loads the box far less than a push that turns the flap as far (eq. 97):
-//! it slides nothing, and tips with less of a lever.
+//! it slides nothing, and tips with less of a lever. What slides the box is the outer finger alone, as it leans on the board's edge.
 
 use super::astride::{all_astride, Astride};
 use super::contact::Grip;
@@ -46,14 +46,17 @@ impl<G: Guard> Fork<'_, G> {
             .find_map(|astride| Held { fork: self, guard: self.guard.with_opening(astride.opening_m), astride }.plan())
     }
 
-    /// Does the couple turn the box, or tip it, where the flap stands or where it is left?
+    /// Do the fingers move the box, where the flap stands or where it is left: with their couple, and with what the outer one, where
+    /// it leans, presses along the board?
     fn moves_box(&self, astride: &Astride) -> bool {
         let Some(stand) = self.stand else { return false };
         let couple_n_m = self.fold.crease_n_m + self.fold.weight_n_m;
         [self.start_rad(), self.until_rad].iter().any(|&angle_rad| {
             let frame = self.flap.frame(angle_rad);
             let couple = (frame.away * astride.twist - frame.along) * couple_n_m;
-            stand.strain_of_couple(&couple) > self.settings.most_strain
+            let force_n = -frame.away * (couple_n_m * astride.aside_per_m);
+            let at = frame.at(astride.pivot.x, astride.pivot.y, astride.pivot.z);
+            stand.strain_with_couple(&at, &force_n, &couple) > self.settings.most_strain
         })
     }
 
@@ -66,26 +69,27 @@ impl<G: Guard> Held<'_, G> {
     fn plan(&self) -> Option<(PushMotion, f64)> {
         let fork = self.fork;
         let start_rad = fork.start_rad();
-        let places = [(start_rad, 0.0), (start_rad, 1.0), (fork.until_rad, 1.0)];
-        let is_near = |(angle_rad, lean): (f64, f64)| {
+        let is_near = |angle_rad: f64, lean: f64| {
             self.guard.tool_conflict(&self.pose(angle_rad, lean), &self.at(angle_rad), self.clearance_m()).is_some()
         };
-        if places.into_iter().any(is_near) {
+        if is_near(start_rad, 1.0) || is_near(fork.until_rad, 1.0) {
             return None;
         }
-        let solutions = fork.arm.inverse(&self.pose(start_rad, 0.0));
-        solutions.iter().find_map(|solution| self.with_ends(self.turned(&solution.positions)?))
+        // Flat where there is room for it.
+        let lean_in = [0.0, fork.settings.fork.lean_in].into_iter().find(|&lean| !is_near(start_rad, lean))?;
+        let solutions = fork.arm.inverse(&self.pose(start_rad, lean_in));
+        solutions.iter().find_map(|solution| self.with_ends(self.turned(&solution.positions, lean_in)?, lean_in))
     }
 
     /// Leaning, down as far as the arm can follow, and flat again: first in wide steps, then in close ones.
-    fn turned(&self, start: &JointPositions) -> Option<PushMotion> {
+    fn turned(&self, start: &JointPositions, lean_in: f64) -> Option<PushMotion> {
         let settings = self.fork.settings;
-        let wide = self.places(settings.fork.wanted_rad, settings.layer_rad, false);
+        let wide = self.places(settings.fork.wanted_rad, settings.layer_rad, (lean_in, false));
         let found = self.followed(start, &wide, settings.most_turn_rad);
         let last = found.len().checked_sub(1).map_or((f64::INFINITY, 0.0), |last| wide[last]);
         let mut to_rad = if last.1 < 1.0 { f64::INFINITY } else { last.0 };
         while to_rad <= self.fork.until_rad {
-            let close = self.places(to_rad, settings.sample_rad, true);
+            let close = self.places(to_rad, settings.sample_rad, (lean_in, true));
             let push = self.followed(start, &close, settings.most_sample_turn_rad);
             if push.len() == close.len() {
                 return Some(self.motion(push, close.iter().map(|place| place.0).collect()));
@@ -109,12 +113,12 @@ impl<G: Guard> Held<'_, G> {
     }
 
     /// The flap's angles, and what share of its lean the tool leans by then.
-    fn places(&self, to_rad: f64, step_rad: f64, to_end: bool) -> Vec<(f64, f64)> {
+    fn places(&self, to_rad: f64, step_rad: f64, (lean_in, to_end): (f64, bool)) -> Vec<(f64, f64)> {
         let start_rad = self.fork.start_rad();
-        let leans = layers_between(0.0, 1.0, step_rad / self.astride.lean_rad);
-        let leaning = leans.iter().map(|&lean| (start_rad, lean));
+        let leans = |from: f64| layers_between(from, 1.0, step_rad / self.astride.lean_rad);
+        let leaning = leans(lean_in).into_iter().map(|lean| (start_rad, lean));
         let turning = layers_between(start_rad, to_rad, step_rad).into_iter().skip(1).map(|angle_rad| (angle_rad, 1.0));
-        let back = leans.iter().rev().skip(1).filter(|_| to_end).map(|&lean| (to_rad, lean));
+        let back = leans(0.0).into_iter().rev().skip(1).filter(|_| to_end).map(|lean| (to_rad, lean));
         leaning.chain(turning).chain(back).collect()
     }
 
@@ -137,7 +141,7 @@ impl<G: Guard> Held<'_, G> {
     }
 
     /// With the ways to it and away from it; the flap follows the fingers' slack, then springs back.
-    fn with_ends(&self, mut motion: PushMotion) -> Option<(PushMotion, f64)> {
+    fn with_ends(&self, mut motion: PushMotion, lean_in: f64) -> Option<(PushMotion, f64)> {
         let fork = self.fork;
         let lines = Lines { arm: fork.arm, guard: &self.guard, settings: fork.settings };
         let (start_rad, held_rad) = (motion.hinge_rad[0], motion.hinge_rad[motion.hinge_rad.len() - 1]);
@@ -151,8 +155,9 @@ impl<G: Guard> Held<'_, G> {
             penalty: 0.0,
         };
         let (first, last) = (motion.push[0], motion.push[motion.push.len() - 1]);
-        let mut approach =
-            lines.draw_off(&first, &grip(start_rad, 0.0), &frame(start_rad), &self.at(start_rad), fork.before).ok()?;
+        let mut approach = lines
+            .draw_off(&first, &grip(start_rad, lean_in), &frame(start_rad), &self.at(start_rad), fork.before)
+            .ok()?;
         approach.reverse();
         let retreat = lines.draw_off(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after).ok()?;
         motion = PushMotion { approach, retreat, ..motion };

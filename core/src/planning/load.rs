@@ -127,24 +127,23 @@ impl Stand {
     /// The share that a force (N) at a point is of what moves the box: slides it, turns it on the spot, or tips it over an edge of
     /// its base (eq. 97).
     pub fn strain(&self, at: &Vec3, force_n: &Vec3) -> f64 {
+        self.strain_with_couple(at, force_n, &Vec3::zeros())
+    }
+
+    /// The same of a force and a couple (N m), which turns the box on the spot and tips it.
+    pub fn strain_with_couple(&self, at: &Vec3, force_n: &Vec3, couple_n_m: &Vec3) -> f64 {
         let centre = self.base.iter().sum::<Vec3>() / 4.0;
         let lift_n = force_n.dot(&self.up);
         let level_n = force_n - self.up * lift_n;
-        let turn_n = (at - centre).cross(&level_n).dot(&self.up) / self.spin_m();
+        let turn_n = ((at - centre).cross(&level_n) + couple_n_m).dot(&self.up) / self.spin_m();
         let drag_n = DRAG_SHARE * force_n.norm();
         let along_n = (level_n.norm_squared() + turn_n.powi(2) + drag_n.powi(2)).sqrt();
         let slides = (along_n + self.friction * lift_n) / (self.friction * self.weight_n);
         self.edges().into_iter().fold(slides, |worst, (p, outward, lever_m)| {
-            let over_n_m = level_n.dot(&outward) * (at - p).dot(&self.up) + lift_n * (p - at).dot(&outward);
+            let over_n_m = level_n.dot(&outward) * (at - p).dot(&self.up)
+                + lift_n * (p - at).dot(&outward)
+                + couple_n_m.dot(&self.up.cross(&outward));
             worst.max(over_n_m / (self.weight_n * lever_m))
-        })
-    }
-
-    /// The same of a couple (N m): it turns the box on the spot, or tips it.
-    pub fn strain_of_couple(&self, couple_n_m: &Vec3) -> f64 {
-        let spins = couple_n_m.dot(&self.up).abs() / (self.friction * self.weight_n * self.spin_m());
-        self.edges().into_iter().fold(spins, |worst, (_, outward, lever_m)| {
-            worst.max(couple_n_m.dot(&self.up.cross(&outward)) / (self.weight_n * lever_m))
         })
     }
 
@@ -255,6 +254,8 @@ mod tests {
     fn a_couple_tips_and_spins_but_does_not_slide() {
         // 10 N with levers of 0.1 and 0.05 m; the base's friction of 4 N at a share of the diagonal.
         let spin_m = SPIN_SHARE * f64::hypot(0.2, 0.1);
+        let strain_of_couple =
+            |couple_n_m: &Vec3| stand().strain_with_couple(&Vec3::new(0.03, 0.02, 0.1), &Vec3::zeros(), couple_n_m);
         let asked = [
             (Vec3::new(0.0, 0.5, 0.0), 0.5),
             (Vec3::new(0.0, -0.5, 0.0), 0.5),
@@ -262,7 +263,7 @@ mod tests {
             (Vec3::new(0.0, 0.0, 0.1), 0.1 / (4.0 * spin_m)),
         ];
         let counted = asked.map(|(couple_n_m, share)| {
-            let strain = stand().strain_of_couple(&couple_n_m);
+            let strain = strain_of_couple(&couple_n_m);
             assert!((strain - share).abs() < 1e-9, "{couple_n_m:?}: {strain}");
         });
         assert_eq!(counted.len(), 4);
@@ -270,7 +271,10 @@ mod tests {
         let (up, down) = (Vec3::new(0.0, 0.0, 0.3), Vec3::new(0.0, 0.0, 0.1));
         let force_n = Vec3::new(2.0, 0.0, 0.0);
         let couple = (up - down).cross(&force_n);
-        assert!((stand().strain_of_couple(&couple) - 0.4).abs() < 1e-9);
+        assert!((strain_of_couple(&couple) - 0.4).abs() < 1e-9);
+        // With a force that tips it the same way, 1 N at 0.2 m, against 10 N times 0.1 m.
+        let both = stand().strain_with_couple(&Vec3::new(0.0, 0.0, 0.2), &Vec3::x(), &couple);
+        assert!((both - 0.6).abs() < 1e-9, "{both}");
     }
 
     #[test]

@@ -122,9 +122,13 @@ pub struct ForkSettings {
     pub least_tip_m: f64,
     pub least_depth_m: f64,
     pub depths: [f64; 2],
+    /// Where no other place does, not so deep: a flap that hangs near its side has no room for a finger behind it but at its edge.
+    pub shallow: f64,
     /// By how much the tool leans ahead of the flap, and turns in its plane.
     pub leans_rad: Vec<f64>,
     pub yaws_rad: Vec<f64>,
+    /// Where there is no room to come to the flap with the fingers flat, they lean by this share of it already.
+    pub lean_in: f64,
     /// From the free edge's ends to the tool's middle, and how many places to either side of its middle.
     pub inset_m: f64,
     pub places: usize,
@@ -148,8 +152,10 @@ impl Default for ForkSettings {
             least_tip_m: 0.008,
             least_depth_m: 0.010,
             depths: [1.0, 0.6],
+            shallow: 0.4,
             leans_rad: degrees(&[20.0, 32.0, 12.0]),
             yaws_rad: degrees(&[0.0, 25.0, -25.0]),
+            lean_in: 0.7,
             inset_m: 0.015,
             places: 2,
             edge_m: 0.005,
