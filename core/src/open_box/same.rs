@@ -1,4 +1,4 @@
-//! Whether two fitted boxes are one: whatever follows leads both to the same answer.
+//! Whether two fitted boxes are one: whatever follows leads both to the same answer. And whether one is another with higher sides.
 
 use super::grow::FoundBox;
 use crate::fit::layout;
