@@ -94,19 +94,19 @@ impl Problem {
         let Some(support) = self.support else { return };
         let settings = &self.settings;
         let normal = body.input_from_object.inverse_transform_vector(&support.plane.normal);
-        let mut block = Block::default();
+        let mut block = Block::<SLOT_BULGE>::default();
         // A box may stand on something else, but in nothing.
         let height_cut = |height: &Row| if height.value < 0.0 { FIRM * cut } else { cut };
         if support.is_level {
             let height = height_row(&support.plane, &normal, body, [0.0, 0.0]);
-            block.add::<SLOT_BULGE>(&height, settings.support_sigma_m, 1.0, height_cut(&height));
+            block.add(&height, settings.support_sigma_m, 1.0, height_cut(&height));
             for lean in lean_rows(&normal) {
-                block.add::<SLOT_BULGE>(&lean, settings.support_sigma_rad, 1.0, cut);
+                block.add(&lean, settings.support_sigma_rad, 1.0, cut);
             }
         } else {
             let corners = CORNERS.map(|corner| height_row(&support.plane, &normal, body, corner));
             for height in corners.iter().filter(|height| height.value < 0.0) {
-                block.add::<SLOT_BULGE>(height, settings.support_sigma_m, 1.0, height_cut(height));
+                block.add(height, settings.support_sigma_m, 1.0, height_cut(height));
             }
         }
         block.scatter(sums, 0);
@@ -143,13 +143,24 @@ pub fn add_part(
     motion: Option<&Isometry3<f64>>,
     cut: f64,
 ) {
-    let mut block = Block::default();
     match part.role {
-        Role::Base => rows_of(part, body, motion, |row, sigma, n| block.add::<SLOT_BULGE>(row, sigma, n, cut)),
-        Role::Side(_) => rows_of(part, body, motion, |row, sigma, n| block.add::<SLOT_FLAP>(row, sigma, n, cut)),
-        Role::Flap(_) => rows_of(part, body, motion, |row, sigma, n| block.add::<SLOT_TUCK>(row, sigma, n, cut)),
-        Role::Tuck(_) => rows_of(part, body, motion, |row, sigma, n| block.add::<SLOT_COUNT>(row, sigma, n, cut)),
+        Role::Base => add_rows::<SLOT_BULGE>(sums, part, body, motion, cut),
+        Role::Side(_) => add_rows::<SLOT_FLAP>(sums, part, body, motion, cut),
+        Role::Flap(_) => add_rows::<SLOT_TUCK>(sums, part, body, motion, cut),
+        Role::Tuck(_) => add_rows::<SLOT_COUNT>(sums, part, body, motion, cut),
     }
+}
+
+/// Of a part that depends on the first `COUNT` slots alone.
+fn add_rows<const COUNT: usize>(
+    sums: &mut Linearized,
+    part: &PartReadings,
+    body: &FittedBody,
+    motion: Option<&Isometry3<f64>>,
+    cut: f64,
+) {
+    let mut block = Block::<COUNT>::default();
+    rows_of(part, body, motion, |row, sigma, information| block.add(row, sigma, information, cut));
     block.scatter(sums, part.role.side());
 }
 
@@ -192,38 +203,80 @@ fn rows_of(
     }
 }
 
-/// The sums of one part, by slots.
-struct Block {
+/// Rows wait for so many others: the sums then stay in registers while all of them are added.
+const WAITING: usize = 8;
+/// The curvature is summed by squares of so many slots.
+const TILE: usize = 6;
+/// Slots in whole tiles.
+const PADDED: usize = SLOT_COUNT.div_ceil(TILE) * TILE;
+
+/// The sums of one part, by the first `COUNT` slots.
+struct Block<const COUNT: usize> {
     cost: f64,
-    gradient: [f64; SLOT_COUNT],
-    /// Lower triangle.
-    curvature: [[f64; SLOT_COUNT]; SLOT_COUNT],
+    gradient: [f64; COUNT],
+    /// Lower triangle, in whole tiles.
+    curvature: [[f64; PADDED]; PADDED],
+    /// Rows that are not yet in the curvature, with their weighted ones.
+    rows: [[f64; PADDED]; WAITING],
+    weighted: [[f64; PADDED]; WAITING],
+    waiting: usize,
 }
 
-impl Default for Block {
+impl<const COUNT: usize> Default for Block<COUNT> {
     fn default() -> Self {
-        Self { cost: 0.0, gradient: [0.0; SLOT_COUNT], curvature: [[0.0; SLOT_COUNT]; SLOT_COUNT] }
+        Self {
+            cost: 0.0,
+            gradient: [0.0; COUNT],
+            curvature: [[0.0; PADDED]; PADDED],
+            rows: [[0.0; PADDED]; WAITING],
+            weighted: [[0.0; PADDED]; WAITING],
+            waiting: 0,
+        }
     }
 }
 
-impl Block {
-    /// A row that depends on the first `COUNT` slots alone.
-    fn add<const COUNT: usize>(&mut self, row: &Row, sigma: f64, information: f64, cut: f64) {
+impl<const COUNT: usize> Block<COUNT> {
+    fn add(&mut self, row: &Row, sigma: f64, information: f64, cut: f64) {
         let (cost, left) = cauchy(row.value / sigma, cut);
         self.cost += information * cost;
         let weight = information * left / (sigma * sigma);
+        let (kept, weighted) = (&mut self.rows[self.waiting], &mut self.weighted[self.waiting]);
         for i in 0..COUNT {
-            let weighted = weight * row.slots[i];
-            self.gradient[i] += weighted * row.value;
-            for j in 0..=i {
-                self.curvature[i][j] += weighted * row.slots[j];
-            }
+            kept[i] = row.slots[i];
+            weighted[i] = weight * row.slots[i];
+            self.gradient[i] += weighted[i] * row.value;
+        }
+        self.waiting += 1;
+        if self.waiting == WAITING {
+            self.add_waiting();
         }
     }
 
-    fn scatter(&self, sums: &mut Linearized, k: usize) {
+    /// Row by row in their order, whatever the tile: the same bits as one by one.
+    fn add_waiting(&mut self) {
+        for i in (0..COUNT).step_by(TILE) {
+            for j in (0..=i).step_by(TILE) {
+                let mut tile: [[f64; TILE]; TILE] = std::array::from_fn(|a| part_of(&self.curvature[i + a], j));
+                for (row, weighted) in self.rows.iter().zip(&self.weighted).take(self.waiting) {
+                    let (row, weighted) = (part_of(row, j), part_of(weighted, i));
+                    for a in 0..TILE {
+                        for b in 0..TILE {
+                            tile[a][b] += weighted[a] * row[b];
+                        }
+                    }
+                }
+                for (a, sums) in tile.iter().enumerate() {
+                    self.curvature[i + a][j..j + TILE].copy_from_slice(sums);
+                }
+            }
+        }
+        self.waiting = 0;
+    }
+
+    fn scatter(mut self, sums: &mut Linearized, k: usize) {
+        self.add_waiting();
         sums.cost += self.cost;
-        for i in 0..SLOT_COUNT {
+        for i in 0..COUNT {
             let place = place_of_slot(i, k);
             sums.gradient[place] += self.gradient[i];
             // Places ascend with their slots.
@@ -232,4 +285,9 @@ impl Block {
             }
         }
     }
+}
+
+#[inline(always)]
+fn part_of(row: &[f64; PADDED], from: usize) -> [f64; TILE] {
+    std::array::from_fn(|i| row[from + i])
 }

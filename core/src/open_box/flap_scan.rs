@@ -1,7 +1,7 @@
 //! Each rim edge is scanned for its flap: at every angle the readings are asked whether a board leaves the edge there.
 
 use super::hinge_line::HingeLine;
-use super::sight::{Says, Sight};
+use super::sight::{Rows, Says, Sight};
 use crate::geometry::Vec3;
 
 /// A flap as the scan sees it.
@@ -86,7 +86,8 @@ const LEAST_ROWS_M: f64 = 0.012;
 /// The best flap on an edge, `None` where no angle has more readings for it than against it.
 pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<ScannedFlap> {
     let angles = angles(hinge, &sight.eye, range);
-    let scores: Vec<f64> = angles.iter().map(|&angle| near_score(sight, hinge, angle, range)).collect();
+    let near = Board::new(sight, hinge, range, NEAR_COLUMNS);
+    let scores: Vec<f64> = angles.iter().map(|&angle| near.near_score(angle)).collect();
     let is_peak = |i: usize| {
         let of = |j: usize| scores.get(j).copied().unwrap_or(f64::NEG_INFINITY);
         scores[i] > 0.0 && scores[i] >= of(i + 1) && (i == 0 || scores[i] > of(i - 1))
@@ -104,7 +105,8 @@ pub fn follow_best(
     angles: impl Iterator<Item = f64>,
     range: &ScanRange,
 ) -> Option<ScannedFlap> {
-    let followed = angles.filter_map(|angle| follow(sight, hinge, angle, range));
+    let board = Board::new(sight, hinge, range, range.columns);
+    let followed = angles.filter_map(|angle| board.follow(angle));
     followed.filter(|flap| flap.score() > 0.0).fold(None, |best: Option<ScannedFlap>, flap| match best {
         Some(best) if best.score() >= flap.score() => Some(best),
         _ => Some(flap),
@@ -137,47 +139,111 @@ fn angles(hinge: &HingeLine, eye: &Vec3, range: &ScanRange) -> Vec<f64> {
     out
 }
 
-fn columns(hinge: &HingeLine, count: usize) -> impl Iterator<Item = f64> {
-    let half = hinge.half_m * (1.0 - END_SHARE);
-    (0..count).map(move |i| half * ((2 * i + 1) as f64 / count as f64 - 1.0))
+/// A board on an edge, asked for at places in columns along it.
+struct Board<'a> {
+    sight: &'a Sight<'a>,
+    rows: Rows<'a>,
+    hinge: &'a HingeLine,
+    range: &'a ScanRange,
+    columns_m: Vec<f64>,
 }
 
-fn near_score(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -> f64 {
-    let (way, normal) = hinge.directions(angle);
-    let mut score = 0.0;
-    for column in columns(hinge, NEAR_COLUMNS) {
-        for reach in range.reaches().filter(|reach| *reach < range.longest_m) {
-            let point = hinge.middle + hinge.along * column + way * reach;
-            score += match hinge.ask(sight, &point, &normal, range.model_m).0 {
-                Says::Met => 1.0,
-                Says::Through => -1.0,
-                Says::Hidden | Says::Blank | Says::Outside => 0.0,
-            };
-        }
+impl<'a> Board<'a> {
+    fn new(sight: &'a Sight, hinge: &'a HingeLine, range: &'a ScanRange, count: usize) -> Self {
+        let half = hinge.half_m * (1.0 - END_SHARE);
+        let columns_m = (0..count).map(|i| half * ((2 * i + 1) as f64 / count as f64 - 1.0)).collect();
+        Self { sight, rows: sight.rows(hinge.along), hinge, range, columns_m }
     }
-    score
-}
 
-/// A board followed from the hinge outwards, its angle and curl fitted to what is met on the way.
-fn follow(sight: &Sight, hinge: &HingeLine, angle: f64, range: &ScanRange) -> Option<ScannedFlap> {
-    let mut flap = ScannedFlap { angle_rad: angle, curl: 0.0, length_m: 0.0, met: 0.0, through: 0.0, hidden: 0.0 };
-    for &reach in range.looks().iter().chain([&range.longest_m]) {
-        let walk = walk(sight, hinge, &flap, reach.min(range.longest_m), range);
-        flap = walk.fitted(&flap)?;
-        if reach >= range.longest_m {
-            break;
-        }
+    fn ask<'b>(&'b self, middle: &Vec3, normal: &Vec3) -> impl Iterator<Item = (Says, Option<Vec3>)> + 'b {
+        self.hinge.ask_row(&self.rows, middle, normal, self.range.model_m, &self.columns_m)
     }
-    let last = walk(sight, hinge, &flap, range.longest_m, range);
-    let [least, most] = range.angles_rad;
-    let within = (least - STEP_RAD..=most + STEP_RAD).contains(&flap.angle_rad);
-    (within && last.length_m >= LEAST_ROWS_M).then_some(ScannedFlap {
-        length_m: last.length_m,
-        met: last.met,
-        through: last.through,
-        hidden: last.hidden,
-        ..flap
-    })
+
+    fn near_score(&self, angle: f64) -> f64 {
+        let (way, normal) = self.hinge.directions(angle);
+        let mut score = 0.0;
+        for reach in self.range.reaches().filter(|reach| *reach < self.range.longest_m) {
+            for (says, _) in self.ask(&(self.hinge.middle + way * reach), &normal) {
+                score += match says {
+                    Says::Met => 1.0,
+                    Says::Through => -1.0,
+                    Says::Hidden | Says::Blank | Says::Outside => 0.0,
+                };
+            }
+        }
+        score
+    }
+
+    /// Followed from the hinge outwards, its angle and curl fitted to what is met on the way.
+    fn follow(&self, angle: f64) -> Option<ScannedFlap> {
+        let range = self.range;
+        let mut flap = ScannedFlap { angle_rad: angle, curl: 0.0, length_m: 0.0, met: 0.0, through: 0.0, hidden: 0.0 };
+        for &reach in range.looks().iter().chain([&range.longest_m]) {
+            let walk = self.walk(&flap, reach.min(range.longest_m));
+            flap = walk.fitted(&flap)?;
+            if reach >= range.longest_m {
+                break;
+            }
+        }
+        let last = self.walk(&flap, range.longest_m);
+        let [least, most] = range.angles_rad;
+        let within = (least - STEP_RAD..=most + STEP_RAD).contains(&flap.angle_rad);
+        (within && last.length_m >= LEAST_ROWS_M).then_some(ScannedFlap {
+            length_m: last.length_m,
+            met: last.met,
+            through: last.through,
+            hidden: last.hidden,
+            ..flap
+        })
+    }
+
+    fn walk(&self, flap: &ScannedFlap, longest_m: f64) -> Walk {
+        let (hinge, range) = (self.hinge, self.range);
+        let (way, normal) = hinge.directions(flap.angle_rad);
+        let mut out = Walk::default();
+        let mut pending = [0.0; 3];
+        let (mut reach, mut last_met) = (0.010, 0.010);
+        let column_m = 2.0 * hinge.half_m * (1.0 - END_SHARE) / range.columns as f64;
+        while reach < longest_m && reach - last_met < MOST_GAP_M {
+            let height = flap.curl * reach * reach / 2.0;
+            let tilted = normal - way * (flap.curl * reach);
+            let (mut met, mut through, mut hidden) = (0.0, 0.0, 0.0);
+            let middle = hinge.middle + way * reach + normal * height;
+            let pixels = self.sight.pixels(&middle, &normal, ROW_M * column_m);
+            for asked in self.ask(&middle, &tilted) {
+                match asked {
+                    (Says::Met, Some(reading)) => {
+                        met += pixels;
+                        let from = reading - hinge.middle;
+                        let (x, y) = (way.dot(&from), normal.dot(&from));
+                        let (q, y) = (x * x / 2.0, y - flap.curl * x * x / 2.0);
+                        for (sum, term) in out.sums.iter_mut().zip([x * x, x * q, q * q, x * y, q * y]) {
+                            *sum += term;
+                        }
+                    }
+                    (Says::Through, _) => through += pixels,
+                    (Says::Hidden, _) => hidden += pixels,
+                    _ => {}
+                }
+            }
+            for (sum, term) in pending.iter_mut().zip([met, through, hidden]) {
+                *sum += term;
+            }
+            if met > LEAST_MET_SHARE * (met + through) && met > 0.15 * (met + through + hidden) {
+                out.met += pending[0];
+                out.through += pending[1];
+                out.hidden += pending[2];
+                pending = [0.0; 3];
+                last_met = reach;
+                out.length_m = reach + ROW_M / 2.0;
+            } else if range.over_hidden && hidden > met + through {
+                // Nothing says that it ends here.
+                last_met += ROW_M;
+            }
+            reach += ROW_M;
+        }
+        out
+    }
 }
 
 /// What is met on a board of a given angle and curl.
@@ -213,50 +279,3 @@ impl Walk {
 /// In the units of the sums: (x^2/2)^2 summed over readings of 0.1 m reach.
 const CURL_PRIOR: f64 = 2e-5;
 const MOST_CURL: f64 = 2.5;
-
-fn walk(sight: &Sight, hinge: &HingeLine, flap: &ScannedFlap, longest_m: f64, range: &ScanRange) -> Walk {
-    let (way, normal) = hinge.directions(flap.angle_rad);
-    let mut out = Walk::default();
-    let mut pending = [0.0; 3];
-    let (mut reach, mut last_met) = (0.010, 0.010);
-    let column_m = 2.0 * hinge.half_m * (1.0 - END_SHARE) / range.columns as f64;
-    while reach < longest_m && reach - last_met < MOST_GAP_M {
-        let height = flap.curl * reach * reach / 2.0;
-        let tilted = normal - way * (flap.curl * reach);
-        let (mut met, mut through, mut hidden) = (0.0, 0.0, 0.0);
-        let middle = hinge.middle + way * reach + normal * height;
-        let pixels = sight.pixels(&middle, &normal, ROW_M * column_m);
-        for column in columns(hinge, range.columns) {
-            match hinge.ask(sight, &(middle + hinge.along * column), &tilted, range.model_m) {
-                (Says::Met, Some(reading)) => {
-                    met += pixels;
-                    let from = reading - hinge.middle;
-                    let (x, y) = (way.dot(&from), normal.dot(&from));
-                    let (q, y) = (x * x / 2.0, y - flap.curl * x * x / 2.0);
-                    for (sum, term) in out.sums.iter_mut().zip([x * x, x * q, q * q, x * y, q * y]) {
-                        *sum += term;
-                    }
-                }
-                (Says::Through, _) => through += pixels,
-                (Says::Hidden, _) => hidden += pixels,
-                _ => {}
-            }
-        }
-        for (sum, term) in pending.iter_mut().zip([met, through, hidden]) {
-            *sum += term;
-        }
-        if met > LEAST_MET_SHARE * (met + through) && met > 0.15 * (met + through + hidden) {
-            out.met += pending[0];
-            out.through += pending[1];
-            out.hidden += pending[2];
-            pending = [0.0; 3];
-            last_met = reach;
-            out.length_m = reach + ROW_M / 2.0;
-        } else if range.over_hidden && hidden > met + through {
-            // Nothing says that it ends here.
-            last_met += ROW_M;
-        }
-        reach += ROW_M;
-    }
-    out
-}

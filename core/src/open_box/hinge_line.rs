@@ -1,6 +1,6 @@
 //! Edges that a board may hang on.
 
-use super::sight::{Reading, Says, Sight};
+use super::sight::{Reading, Rows, Says};
 use crate::fit::{flap_end, layout, FittedBody, Rim};
 use crate::geometry::{Plane, Vec3};
 
@@ -65,16 +65,26 @@ impl HingeLine {
         }
     }
 
-    /// What the camera says of a point of a board on the edge; a reading of the panel that the edge belongs to, of
-    /// the base or of the support says nothing.
-    pub fn ask(&self, sight: &Sight, point: &Vec3, normal: &Vec3, model_m: f64) -> (Says, Option<Vec3>) {
-        let (says, look) = sight.ask(point, normal, model_m);
-        let Some(look) = look else { return (says, None) };
-        let reading = look.at();
-        if says == Says::Met && (self.is_on_parent(&reading, model_m) || self.is_ground(sight, look, model_m)) {
-            return (Says::Blank, None);
-        }
-        (says, Some(reading))
+    /// What the camera says of the points of a board on the edge, in rows along it; a reading of the panel that the edge belongs to,
+    /// of the base or of the support says nothing.
+    #[inline]
+    pub fn ask_row<'a>(
+        &'a self,
+        rows: &Rows<'a>,
+        middle: &Vec3,
+        normal: &Vec3,
+        model_m: f64,
+        columns_m: &'a [f64],
+    ) -> impl Iterator<Item = (Says, Option<Vec3>)> + 'a {
+        let eye_z = rows.eye().z;
+        rows.ask(middle, normal, model_m, columns_m).map(move |(says, look)| {
+            let Some(look) = look else { return (says, None) };
+            let reading = look.at();
+            if says == Says::Met && (self.is_on_parent(&reading, model_m) || self.is_ground(eye_z, look, model_m)) {
+                return (Says::Blank, None);
+            }
+            (says, Some(reading))
+        })
     }
 
     fn is_on_parent(&self, reading: &Vec3, model_m: f64) -> bool {
@@ -82,9 +92,9 @@ impl HingeLine {
         self.parent.dot(&from) > -0.002 && self.off_parent.dot(&from).abs() < model_m + HALF_BOARD_M
     }
 
-    fn is_ground(&self, sight: &Sight, look: &Reading, model_m: f64) -> bool {
+    fn is_ground(&self, eye_z: f64, look: &Reading, model_m: f64) -> bool {
         let reading = look.at();
-        let tolerance = look.noise() * (reading.z - sight.eye.z).abs() + model_m;
+        let tolerance = look.noise() * (reading.z - eye_z).abs() + model_m;
         reading.z.abs() < tolerance || self.base.height_of(&reading).abs() < tolerance
     }
 

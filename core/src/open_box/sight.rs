@@ -34,6 +34,20 @@ impl Reading {
         Vec3::new(f64::from(x), f64::from(y), f64::from(z))
     }
 
+    /// What it says of a surface that lies that far before it along the normal; `along` is the way from the eye to the surface along
+    /// the normal.
+    #[inline]
+    fn says(&self, off: f64, along: f64, model_m: f64) -> Says {
+        let tolerance = self.noise() * along.abs() + model_m;
+        if off.abs() <= tolerance {
+            Says::Met
+        } else if (off > 0.0) == (along > 0.0) {
+            Says::Through
+        } else {
+            Says::Hidden
+        }
+    }
+
     /// So many standard deviations along its ray as a reading may lie off its surface, share of the range.
     #[inline]
     pub fn noise(&self) -> f64 {
@@ -121,14 +135,19 @@ impl<'a> Sight<'a> {
     /// Column and row that see a point; `None` behind the camera.
     #[inline]
     pub fn pixel(&self, point: &Vec3) -> Option<[f64; 2]> {
-        let place = self.place_from_level.times(&(point - self.eye));
-        (place.z > 1e-3).then(|| [place.x / place.z, place.y / place.z])
+        pixel_at(&self.place_from_level.times(&(point - self.eye)))
     }
 
     /// The pixel that sees a point, where the image has it.
     #[inline]
     pub fn index(&self, point: &Vec3) -> Option<usize> {
-        let [x, y] = self.pixel(point)?;
+        self.index_at(&self.place_from_level.times(&(point - self.eye)))
+    }
+
+    /// The same of a place along the camera's axes, in pixels times depth.
+    #[inline]
+    fn index_at(&self, place: &Vec3) -> Option<usize> {
+        let [x, y] = pixel_at(place)?;
         // Half a pixel further, so that the whole part is the nearest.
         let (x, y) = (x + 0.5, y + 0.5);
         let within = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64;
@@ -157,15 +176,12 @@ impl<'a> Sight<'a> {
         let Some(look) = self.look(index) else { return (Says::Blank, None) };
         let along = normal.dot(&(point - self.eye));
         let off = normal.dot(&(look.at() - point));
-        let tolerance = look.noise() * along.abs() + model_m;
-        let says = if off.abs() <= tolerance {
-            Says::Met
-        } else if (off > 0.0) == (along > 0.0) {
-            Says::Through
-        } else {
-            Says::Hidden
-        };
-        (says, Some(look))
+        (look.says(off, along, model_m), Some(look))
+    }
+
+    /// Points in rows along one direction of a surface, to be asked row by row.
+    pub fn rows(&self, along: Vec3) -> Rows<'_> {
+        Rows { sight: self, step: self.place_from_level.times(&along) }
     }
 
     /// Pixels that a piece of surface of that area fills.
@@ -173,6 +189,45 @@ impl<'a> Sight<'a> {
         let ray = point - self.eye;
         let range = ray.norm();
         area_m2 * (normal.dot(&ray) / range).abs() / (range * self.pixel_rad).powi(2)
+    }
+}
+
+/// Column and row of a place along the camera's axes, in pixels times depth; `None` behind the camera.
+#[inline]
+fn pixel_at(place: &Vec3) -> Option<[f64; 2]> {
+    (place.z > 1e-3).then(|| [place.x / place.z, place.y / place.z])
+}
+
+/// Asks for points of a surface row by row, as `Sight::ask` does for one: what a row's points share is worked out once.
+pub struct Rows<'a> {
+    sight: &'a Sight<'a>,
+    /// One metre along the rows.
+    step: Vec3,
+}
+
+impl<'a> Rows<'a> {
+    pub fn eye(&self) -> Vec3 {
+        self.sight.eye
+    }
+
+    /// Of the row through a point; the normal is square to it. What the camera says of the row's points so many metres along it.
+    #[inline]
+    pub fn ask(
+        &self,
+        middle: &Vec3,
+        normal: &Vec3,
+        model_m: f64,
+        columns_m: &'a [f64],
+    ) -> impl Iterator<Item = (Says, Option<&'a Reading>)> + use<'a> {
+        let from_eye = middle - self.sight.eye;
+        let place = self.sight.place_from_level.times(&from_eye);
+        let (sight, step, normal) = (self.sight, self.step, *normal);
+        let (along, from_origin) = (normal.dot(&from_eye), normal.dot(middle));
+        columns_m.iter().map(move |column_m| {
+            let Some(index) = sight.index_at(&(place + step * *column_m)) else { return (Says::Outside, None) };
+            let Some(look) = sight.look(index) else { return (Says::Blank, None) };
+            (look.says(normal.dot(&look.at()) - from_origin, along, model_m), Some(look))
+        })
     }
 }
 
