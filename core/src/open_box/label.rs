@@ -2,6 +2,7 @@
 
 use super::labels::{roles, Labels, Present};
 use super::sight::{Sight, Turn};
+use super::silhouette::Silhouette;
 use super::surfaces::Surface;
 use crate::fit::{layout, FittedBody, Rim, Role};
 use crate::geometry::Vec3;
@@ -12,14 +13,20 @@ use crate::geometry::Vec3;
 pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, stride: usize) -> Labels {
     let roles = roles(present);
     let mut parts: Vec<(Role, Vec<u32>)> = roles.iter().map(|role| (*role, Vec::new())).collect();
-    let Some([left, right, top, bottom]) = bounds(sight, body, present) else { return Labels { parts, stride } };
+    let (low, high) = object_bounds(body, present);
+    let Some((outline, [left, right, top, bottom])) = bounds(sight, body, &low, &high) else {
+        return Labels { parts, stride };
+    };
     let panels: Vec<Surface> = roles.iter().map(|&role| Surface::new(sight, body, role)).collect();
     let planes = Planes::of(&panels);
-    let (low, high) = object_bounds(body, present);
     let inverse = body.input_from_object.inverse();
     let (turn, shift) = (Turn::of(inverse.rotation.to_rotation_matrix().matrix()), inverse.translation.vector);
     for row in (top..=bottom).step_by(stride) {
-        for column in (left..=right).step_by(stride) {
+        let [first, last] = outline.columns(row as f64);
+        let skipped = ((first - left as f64) / stride as f64).ceil().clamp(0.0, sight.width as f64);
+        let first = left + skipped as usize * stride;
+        let last = last.clamp(0.0, right as f64) as usize;
+        for column in (first..=last).step_by(stride) {
             let index = row * sight.width + column;
             let Some(look) = sight.look(index) else { continue };
             let point = look.at();
@@ -114,18 +121,18 @@ fn object_bounds(body: &FittedBody, present: &Present) -> (Vec3, Vec3) {
     (low, high)
 }
 
-/// Of the body in the image: left, right, top, bottom, inclusive.
-fn bounds(sight: &Sight, body: &FittedBody, present: &Present) -> Option<[usize; 4]> {
-    let (low, high) = object_bounds(body, present);
-    let mut bounds = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
-    for corner in 0..8 {
-        let pick = |a: usize| if corner >> a & 1 == 0 { low[a] } else { high[a] };
-        let point = body.to_input(&Vec3::new(pick(0), pick(1), pick(2)));
-        let [u, v] = sight.pixel(&point)?;
-        bounds = [bounds[0].min(u), bounds[1].max(u), bounds[2].min(v), bounds[3].max(v)];
+/// Of what lies between two corners of the object's frame: its outline in the image, and left, right, top, bottom, inclusive.
+fn bounds(sight: &Sight, body: &FittedBody, low: &Vec3, high: &Vec3) -> Option<(Silhouette, [usize; 4])> {
+    let mut corners = [[0.0; 2]; 8];
+    for (number, corner) in corners.iter_mut().enumerate() {
+        let pick = |a: usize| if number >> a & 1 == 0 { low[a] } else { high[a] };
+        *corner = sight.pixel(&body.to_input(&Vec3::new(pick(0), pick(1), pick(2))))?;
     }
+    let outline = Silhouette::new(corners);
+    let bounds = outline.bounds();
     let cell = |at: f64, count: usize| at.clamp(0.0, count as f64 - 1.0) as usize;
     let (width, height) = (sight.width, sight.height);
     let is_seen = bounds[1] >= 0.0 && bounds[0] < width as f64 && bounds[3] >= 0.0 && bounds[2] < height as f64;
-    is_seen.then(|| [cell(bounds[0], width), cell(bounds[1], width), cell(bounds[2], height), cell(bounds[3], height)])
+    let cells = [cell(bounds[0], width), cell(bounds[1], width), cell(bounds[2], height), cell(bounds[3], height)];
+    is_seen.then_some((outline, cells))
 }

@@ -41,6 +41,7 @@ mod shape;
 mod shell;
 mod shells;
 mod sight;
+mod silhouette;
 mod slots;
 mod start;
 mod sure;

@@ -1,8 +1,11 @@
 //! A box without flaps, held against the depth image: each ray meets an outer face, or goes in by the opening and meets a wall's
 //! inner face or the base.
 
+use std::ops::Range;
+
 use super::proposal::Proposal;
 use super::sight::Sight;
+use super::silhouette::Silhouette;
 use crate::geometry::Vec3;
 
 /// What the rays say of a box's four walls, in pixels of the image; walls as in `Proposal`.
@@ -34,6 +37,11 @@ impl ShellLook {
             - 2.0 * self.through
             - (self.lid - INSIDE_TO_LID * self.inside).max(0.0)
             - 0.05 * self.hidden
+    }
+
+    /// The score if so much more were on its walls, and below its opening.
+    fn most(&self, left_over: f64) -> f64 {
+        Self { inside: self.inside + left_over, ..*self }.score() + left_over
     }
 }
 
@@ -79,17 +87,20 @@ impl Rays {
     /// Looks at a box's shell; `turned` are the rays along its directions. `None` of one that cannot come to `least`.
     pub fn look(&self, sight: &Sight, proposal: &Proposal, turned: &RaysAlong, least: f64) -> Option<ShellLook> {
         let mut looked = ShellLook::default();
-        let [left, right, top, bottom] = self.bounds(sight, proposal)?;
+        let outline = outline(sight, proposal)?;
+        let [_, _, top, bottom] = self.bounds(sight, &outline)?;
         let eye = turned.eye;
         let [x, y] = proposal.spans;
         let slabs = [x, y, proposal.heights];
         let pixels = (STRIDE * STRIDE) as f64;
-        for row in top..=bottom {
-            // Were all that is left on its walls.
-            if looked.score() + ((bottom + 1 - row) * (right + 1 - left)) as f64 * pixels < least {
+        let rows: Vec<Range<usize>> = (top..=bottom).map(|row| self.columns(&outline, row)).collect();
+        let mut left_over: usize = rows.iter().map(Range::len).sum();
+        for (row, columns) in (top..=bottom).zip(rows) {
+            if looked.most(left_over as f64 * pixels) < least {
                 return None;
             }
-            for column in left..=right {
+            left_over -= columns.len();
+            for column in columns {
                 let k = row * self.columns + column;
                 let (ray, inverse) = &turned.rays[k];
                 if !ray[0].is_finite() {
@@ -120,11 +131,13 @@ impl Rays {
 
     /// Pixels that meet the outside of a closed box less twice those that look through it; `None` where it is not in the image.
     pub fn look_at_closed(&self, sight: &Sight, proposal: &Proposal, turned: &RaysAlong) -> Option<f64> {
-        let [left, right, top, bottom] = self.bounds(sight, proposal)?;
+        let outline = outline(sight, proposal)?;
+        let [_, _, top, bottom] = self.bounds(sight, &outline)?;
         let [x, y] = proposal.spans;
         let slabs = [x, y, proposal.heights];
         let mut score = 0.0;
-        for k in (top..=bottom).flat_map(|row| (left..=right).map(move |column| row * self.columns + column)) {
+        let of_row = |row: usize| self.columns(&outline, row).map(move |column| row * self.columns + column);
+        for k in (top..=bottom).flat_map(of_row) {
             let (ray, inverse) = &turned.rays[k];
             if !ray[0].is_finite() {
                 continue;
@@ -142,15 +155,19 @@ impl Rays {
         Some(score * (STRIDE * STRIDE) as f64)
     }
 
-    /// Of the box in the grid of rays: left, right, top, bottom, inclusive.
-    fn bounds(&self, sight: &Sight, proposal: &Proposal) -> Option<[usize; 4]> {
-        let mut bounds = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
-        for corner in 0..8 {
-            let pick = |a: usize| proposal.spans[a][corner >> a & 1];
-            let z = proposal.up * proposal.heights[corner >> 2];
-            let [u, v] = sight.pixel(&(proposal.axes[0] * pick(0) + proposal.axes[1] * pick(1) + z))?;
-            bounds = [bounds[0].min(u), bounds[1].max(u), bounds[2].min(v), bounds[3].max(v)];
-        }
+    /// Of a row of the grid those that may meet the box.
+    fn columns(&self, outline: &Silhouette, row: usize) -> Range<usize> {
+        // The last column and row may be nearer.
+        let half = (STRIDE / 2) as f64;
+        let [low, high] = outline.columns((row * STRIDE) as f64 + half);
+        let (low, high) = ((low - half) / STRIDE as f64, (high - half) / STRIDE as f64);
+        low.ceil().clamp(0.0, self.columns as f64) as usize
+            ..(high.floor() + 1.0).clamp(0.0, self.columns as f64) as usize
+    }
+
+    /// Of a box in the grid of rays: left, right, top, bottom, inclusive.
+    fn bounds(&self, sight: &Sight, outline: &Silhouette) -> Option<[usize; 4]> {
+        let bounds = outline.bounds();
         let cell = |at: f64, count: usize| (at / STRIDE as f64).floor().clamp(0.0, count as f64 - 1.0) as usize;
         let (width, height) = (sight.width as f64, sight.height as f64);
         let is_seen = bounds[1] >= 0.0 && bounds[0] < width && bounds[3] >= 0.0 && bounds[2] < height;
@@ -163,6 +180,17 @@ impl Rays {
             ]
         })
     }
+}
+
+/// Of the box in the image; `None` of one that reaches behind the camera.
+fn outline(sight: &Sight, proposal: &Proposal) -> Option<Silhouette> {
+    let mut corners = [[0.0; 2]; 8];
+    for (number, corner) in corners.iter_mut().enumerate() {
+        let pick = |a: usize| proposal.spans[a][number >> a & 1];
+        let z = proposal.up * proposal.heights[number >> 2];
+        *corner = sight.pixel(&(proposal.axes[0] * pick(0) + proposal.axes[1] * pick(1) + z))?;
+    }
+    Some(Silhouette::new(corners))
 }
 
 /// The axis of the face by which a ray enters a closed box, and where, the reading being at 1.
