@@ -28,7 +28,7 @@ pub struct FitSettings {
     pub place_sigma_m: f64,
     pub place_sigma_rad: f64,
     /// Residuals beyond this many standard deviations lose their say (Cauchy), at first and at last.
-    pub first_cut: f64,
+    pub coarse_cuts: &'static [f64],
     pub last_cut: f64,
     pub max_steps: usize,
     /// A step that would better the sum of squares by less is the last.
@@ -68,7 +68,7 @@ impl Default for FitSettings {
             stands_on_support_m: 0.05,
             place_sigma_m: 0.002,
             place_sigma_rad: 0.0035,
-            first_cut: 12.0,
+            coarse_cuts: &[12.0, 6.0],
             last_cut: 3.0,
             max_steps: 60,
             least_gain: 1e-4,

@@ -18,8 +18,7 @@ pub struct Solution {
 const FIRST_DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-9;
 const MOST_DAMPING: f64 = 1e10;
-/// With cuts from the first down towards the last; each gets this many steps to come near.
-const COARSE_STAGES: usize = 2;
+/// Under each of the coarse cuts so many steps are taken to come near.
 const STEPS_OF_STAGE: usize = 8;
 
 /// Levenberg-Marquardt: coarse cuts first, so that a poor start does not lose its readings (eq. 82).
@@ -27,16 +26,14 @@ const STEPS_OF_STAGE: usize = 8;
 /// # Errors
 /// Where the steps are spent or none betters the objective before it is least.
 pub fn solve(problem: &Problem, start: &FittedBody) -> Result<Solution, NotFitted> {
-    let (first, last) = (problem.settings.first_cut, problem.settings.last_cut);
     let mut body = start.clone();
-    for stage in 0..COARSE_STAGES {
-        let share = stage as f64 / COARSE_STAGES as f64;
-        let mut coarse = Descent::new(problem, body, first * (last / first).powf(share));
+    for &cut in problem.settings.coarse_cuts {
+        let mut coarse = Descent::new(problem, body, cut);
         // It need not end: the next stage goes on from there.
         let _ = coarse.run(STEPS_OF_STAGE);
         body = coarse.body;
     }
-    let mut descent = Descent::new(problem, body, last);
+    let mut descent = Descent::new(problem, body, problem.settings.last_cut);
     descent.run(problem.settings.max_steps)?;
     let covariance = Factor::new(&descent.at.curvature, 0.0).ok_or(NotFitted::Singular)?.inverse();
     Ok(Solution { body: descent.body, covariance, motions: descent.at.motions })

@@ -3,7 +3,6 @@
 use super::grow::FoundBox;
 use super::same::{is_higher, is_same};
 use super::shells::LEAST_SCORE;
-use crate::fit::share_of_score;
 
 /// Readings are shared by cells of so many pixels: boxes were not asked at the same ones.
 const COARSE_CELL: usize = 4;
@@ -56,11 +55,10 @@ pub fn choose(found: &[FoundBox], width: usize) -> Vec<Chosen> {
     chosen.iter().map(of).collect()
 }
 
-/// What a box holds, times the probability that it is one, and one of a known size. What its corners say of its flaps (eq. 104) they
-/// say against one of higher sides, where there is such a one.
+/// What its corners say of a box's flaps (eq. 104) they say against one of higher sides, where there is such a one.
 fn rank(one: &FoundBox, all: &[&FoundBox]) -> f64 {
     let is_asked = one.slots < 1.0 && all.iter().any(|other| is_higher(other, one));
-    one.score * share_of_score(one.size.as_ref()) * one.probability * if is_asked { one.slots } else { 1.0 }
+    one.rank(one.probability) * if is_asked { one.slots } else { 1.0 }
 }
 
 /// Whether one of two boxes is none, since they share too many readings.

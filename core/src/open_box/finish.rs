@@ -21,8 +21,7 @@ use super::sight::Sight;
 use super::slots::height_by_slots;
 use super::sure::drop_unsure;
 use crate::fit::{
-    canonical_turn, layout, share_of_score, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role,
-    Solution,
+    canonical_turn, layout, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role, Solution,
 };
 
 /// What boxes are finished by.
@@ -102,10 +101,9 @@ impl Finishing<'_> {
         best
     }
 
-    /// What it holds, times the probability that it is a box, and one of a known size.
+    /// Of a box against itself with other sides and flaps, whose probability may have changed.
     fn rank(&self, one: &FoundBox) -> f64 {
-        let judged = self.judgement.map_or(1.0, |judgement| judgement.box_probability(&one.features));
-        one.score * share_of_score(one.size.as_ref()) * one.slots * judged
+        one.rank(self.judgement.map_or(1.0, |judgement| judgement.box_probability(&one.features))) * one.slots
     }
 
     /// With its tuck flaps, fitted to all of its readings; it takes the size that it matches, if any.

@@ -12,7 +12,7 @@ use super::settle::is_sunk;
 use super::sight::Sight;
 use super::slots::likelihood_of_slots;
 use super::sure::{drop_unsure, long_enough};
-use crate::fit::{check, layout, FitSettings, FittedBody, NotFitted, Role, SizeMatch, Solution};
+use crate::fit::{check, layout, share_of_score, FitSettings, FittedBody, NotFitted, Role, SizeMatch, Solution};
 
 /// An open box in the level frame.
 #[derive(Debug, Clone)]
@@ -61,6 +61,11 @@ impl FoundBox {
         }
     }
 
+    /// What it holds, times the probability that it is a box, and one of a known size.
+    pub fn rank(&self, probability: f64) -> f64 {
+        self.score * share_of_score(self.size.as_ref()) * probability
+    }
+
     /// The probability that a part's readings are that part's; `None` of a part without readings.
     pub fn part_probability(&self, role: Role, judgement: &Judgement) -> Option<f64> {
         let features = self.part_features.iter().find(|(r, _)| *r == role).map(|(_, features)| features);
@@ -91,12 +96,12 @@ pub fn grow(
     let settings = competing(settings);
     let (body, present) = with_flaps(body, flaps);
     let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
-    let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
+    let solution = refit(sight, &body, &present, &labels, &nearing(&settings)).ok()?;
     sound(&solution.body).ok()?;
     let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, ONCE_FITTED_M, FINE_SCAN));
     let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
     drop_unsure(sight, &body, &mut labels);
-    let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
+    let solution = refit(sight, &body, &present, &labels, &from_near(&settings)).ok()?;
     sound(&solution.body).ok()?;
     Some(weigh(sight, solution, present, COARSE_STRIDE))
 }
@@ -104,6 +109,16 @@ pub fn grow(
 /// Of boxes that still compete, and of places that are not yet known well.
 pub fn competing(settings: &FitSettings) -> FitSettings {
     FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }
+}
+
+/// Of a proposal, whose readings are given to its panels anew once it has come near.
+fn nearing(settings: &FitSettings) -> FitSettings {
+    FitSettings { coarse_cuts: &[12.0], last_cut: 6.0, least_gain: 0.1, ..*settings }
+}
+
+/// Of a body that has been fitted to nearly the same readings.
+fn from_near(settings: &FitSettings) -> FitSettings {
+    FitSettings { coarse_cuts: &[6.0], ..*settings }
 }
 
 /// Refuses a body that no box has.

@@ -37,10 +37,13 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, 
             let ray = point - sight.eye;
             let sigma3 = look.noise();
             let most = sigma3 * ray.norm() + model_m;
+            let mut near = planes.near(&q, most);
+            if near == 0 {
+                continue;
+            }
             // The support takes what it is nearest to, but for the base upon it.
             let on_support = point.z.abs() / (sigma3 * ray.z.abs() + model_m);
             let mut best = (on_support.min(1.0), usize::MAX);
-            let mut near = planes.near(&q, most);
             while near != 0 {
                 let number = near.trailing_zeros() as usize;
                 near &= near - 1;
@@ -61,6 +64,15 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, 
 
 /// More panels than a box has.
 const LANES: usize = 16;
+const BITS: [u32; LANES] = {
+    let mut bits = [0; LANES];
+    let mut lane = 0;
+    while lane < LANES {
+        bits[lane] = 1 << lane;
+        lane += 1;
+    }
+    bits
+};
 /// What single precision may be off, metres.
 const SINGLE_M: f32 = 1e-5;
 
@@ -90,7 +102,8 @@ impl Planes {
         for lane in 0..LANES {
             let along = self.normal[0][lane] * x + self.normal[1][lane] * y + self.normal[2][lane] * z;
             let off = (along - self.distance[lane]).abs();
-            bits |= u32::from(off <= most + self.slack_m[lane]) << lane;
+            // No shift: lanes differ in it, which keeps them from being worked out side by side.
+            bits |= BITS[lane] & 0_u32.wrapping_sub(u32::from(off <= most + self.slack_m[lane]));
         }
         bits
     }

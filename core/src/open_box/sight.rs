@@ -151,7 +151,8 @@ impl<'a> Sight<'a> {
         // Half a pixel further, so that the whole part is the nearest.
         let (x, y) = (x + 0.5, y + 0.5);
         let within = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64;
-        within.then(|| y as usize * self.width + x as usize)
+        // Signed: to unsigned numbers of that size takes twice as long.
+        within.then(|| y as i32 as usize * self.width + x as i32 as usize)
     }
 
     pub fn reading(&self, index: usize) -> Option<Vec3> {
@@ -195,7 +196,8 @@ impl<'a> Sight<'a> {
 /// Column and row of a place along the camera's axes, in pixels times depth; `None` behind the camera.
 #[inline]
 fn pixel_at(place: &Vec3) -> Option<[f64; 2]> {
-    (place.z > 1e-3).then(|| [place.x / place.z, place.y / place.z])
+    let inverse = 1.0 / place.z;
+    (place.z > 1e-3).then(|| [place.x * inverse, place.y * inverse])
 }
 
 /// Asks for points of a surface row by row, as `Sight::ask` does for one: what a row's points share is worked out once.
