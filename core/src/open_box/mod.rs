@@ -42,6 +42,7 @@ mod shell;
 mod shells;
 mod sight;
 mod silhouette;
+mod slabs;
 mod slots;
 mod start;
 mod sure;

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::proposal::Proposal;
 use super::sight::Sight;
 use super::silhouette::Silhouette;
+use super::slabs::{lanes_of, with_lanes, Counts, Lanes, Slabs, LANES, MODEL_M, PIXELS, STRIDE};
 use crate::geometry::Vec3;
 
 /// What the rays say of a box's four walls, in pixels of the image; walls as in `Proposal`.
@@ -19,13 +20,6 @@ pub struct ShellLook {
     pub lid: f64,
     pub inside: f64,
 }
-
-/// Every so many pixels of a row, and rows, are asked.
-const STRIDE: usize = 8;
-/// Proposals are off by this much beside the noise, metres.
-const MODEL_M: f64 = 0.009;
-/// What lies this near to the rim's plane, and over the opening, closes it.
-const LID_M: f64 = 0.006;
 
 /// Flaps that are shut close a part of an opening: so much of it for each reading below.
 const INSIDE_TO_LID: f64 = 0.6;
@@ -48,16 +42,27 @@ impl ShellLook {
 /// Every so many readings of the image, as seen from the eye; directions are not of unit length: they end in the reading.
 pub struct Rays {
     to_reading: Vec<Vec3>,
-    tolerance: Vec<f64>,
+    /// Followed by as many as are looked at together.
+    tolerance: Vec<f32>,
     columns: usize,
     rows: usize,
 }
 
-/// The rays, and the eye, along the directions that many boxes share.
+/// The rays, and the eye, along the directions that many boxes share; axis by axis, with their inverses, each list followed by as many
+/// as are looked at together. A ray without a reading is not a number.
 pub struct RaysAlong {
-    eye: [f64; 3],
-    /// With their inverses.
-    rays: Vec<([f64; 3], [f64; 3])>,
+    eye: [f32; 3],
+    rays: [Vec<f32>; 3],
+    inverses: [Vec<f32>; 3],
+}
+
+impl RaysAlong {
+    fn lanes(&self, from: usize) -> Lanes {
+        Lanes {
+            rays: self.rays.each_ref().map(|of| lanes_of(of, from)),
+            inverses: self.inverses.each_ref().map(|of| lanes_of(of, from)),
+        }
+    }
 }
 
 impl Rays {
@@ -72,60 +77,42 @@ impl Rays {
         };
         let to_reading: Vec<Vec3> = (0..columns * rows).map(place).collect();
         // Per metre of range: cos and range come with the face.
-        let tolerance = to_reading.iter().map(|d| 3.0 * sight.sigma_m(d.norm()) / d.norm()).collect();
+        let tolerance = with_lanes(to_reading.iter().map(|d| 3.0 * sight.sigma_m(d.norm()) / d.norm()));
         Self { to_reading, tolerance, columns, rows }
     }
 
     /// The rays along a box's directions.
     pub fn along(&self, sight: &Sight, proposal: &Proposal) -> RaysAlong {
         let axes = [proposal.axes[0], proposal.axes[1], proposal.up];
-        let of = |v: &Vec3| axes.each_ref().map(|axis| v.dot(axis));
-        let ray = |v: &Vec3| (of(v), of(v).map(|along| 1.0 / along));
-        RaysAlong { eye: of(&sight.eye), rays: self.to_reading.iter().map(ray).collect() }
+        let along = |axis: &Vec3| self.to_reading.iter().map(|v| v.dot(axis)).collect::<Vec<f64>>();
+        let rays = axes.each_ref().map(along);
+        RaysAlong {
+            eye: axes.each_ref().map(|axis| sight.eye.dot(axis) as f32),
+            inverses: rays.each_ref().map(|of| with_lanes(of.iter().map(|along| 1.0 / along))),
+            rays: rays.each_ref().map(|of| with_lanes(of.iter().copied())),
+        }
     }
 
     /// Looks at a box's shell; `turned` are the rays along its directions. `None` of one that cannot come to `least`.
     pub fn look(&self, sight: &Sight, proposal: &Proposal, turned: &RaysAlong, least: f64) -> Option<ShellLook> {
-        let mut looked = ShellLook::default();
         let outline = outline(sight, proposal)?;
         let [_, _, top, bottom] = self.bounds(sight, &outline)?;
-        let eye = turned.eye;
-        let [x, y] = proposal.spans;
-        let slabs = [x, y, proposal.heights];
-        let pixels = (STRIDE * STRIDE) as f64;
+        let slabs = Slabs::new(proposal, &turned.eye);
         let rows: Vec<Range<usize>> = (top..=bottom).map(|row| self.columns(&outline, row)).collect();
         let mut left_over: usize = rows.iter().map(Range::len).sum();
+        let mut counts = Counts::default();
         for (row, columns) in (top..=bottom).zip(rows) {
-            if looked.most(left_over as f64 * pixels) < least {
+            if counts.looked().most(left_over as f64 * PIXELS) < least {
                 return None;
             }
             left_over -= columns.len();
-            for column in columns {
-                let k = row * self.columns + column;
-                let (ray, inverse) = &turned.rays[k];
-                if !ray[0].is_finite() {
-                    continue;
-                }
-                let Some((face, at)) = meet(&eye, ray, inverse, &slabs) else { continue };
-                if face.is_inner && (eye[2] + ray[2] - slabs[2][1]).abs() < LID_M + self.tolerance[k] * ray[2].abs() {
-                    looked.lid += pixels;
-                    continue;
-                }
-                if face.is_inner && eye[2] + ray[2] < slabs[2][1] {
-                    looked.inside += pixels;
-                }
-                let reach = ray[face.axis].abs();
-                let off = (1.0 - at) * reach;
-                let tolerance = self.tolerance[k] * reach + MODEL_M;
-                if off > tolerance {
-                    looked.through += pixels;
-                } else if off < -tolerance {
-                    looked.hidden += pixels;
-                } else if face.axis < 2 {
-                    looked.met[2 * face.axis + usize::from(face.is_high)][usize::from(face.is_inner)] += pixels;
-                }
+            for column in columns.clone().step_by(LANES) {
+                let from = row * self.columns + column;
+                let says = slabs.meet(&turned.lanes(from), lanes_of(&self.tolerance, from));
+                says.iter().take(columns.end - column).for_each(|says| counts.add(*says));
             }
         }
+        let looked = counts.looked();
         (looked.score() >= least).then_some(looked)
     }
 
@@ -133,17 +120,12 @@ impl Rays {
     pub fn look_at_closed(&self, sight: &Sight, proposal: &Proposal, turned: &RaysAlong) -> Option<f64> {
         let outline = outline(sight, proposal)?;
         let [_, _, top, bottom] = self.bounds(sight, &outline)?;
-        let [x, y] = proposal.spans;
-        let slabs = [x, y, proposal.heights];
+        let slabs = Slabs::new(proposal, &turned.eye);
         let mut score = 0.0;
         let of_row = |row: usize| self.columns(&outline, row).map(move |column| row * self.columns + column);
         for k in (top..=bottom).flat_map(of_row) {
-            let (ray, inverse) = &turned.rays[k];
-            if !ray[0].is_finite() {
-                continue;
-            }
-            let Some((axis, at)) = enter(&turned.eye, inverse, &slabs) else { continue };
-            let reach = ray[axis].abs();
+            let Some((axis, at)) = slabs.enter(turned.inverses.each_ref().map(|of| of[k])) else { continue };
+            let reach = turned.rays[axis][k].abs();
             let off = (1.0 - at) * reach;
             let tolerance = self.tolerance[k] * reach + MODEL_M;
             if off.abs() <= tolerance {
@@ -152,7 +134,7 @@ impl Rays {
                 score -= 2.0;
             }
         }
-        Some(score * (STRIDE * STRIDE) as f64)
+        Some(score * PIXELS)
     }
 
     /// Of a row of the grid those that may meet the box.
@@ -191,47 +173,4 @@ fn outline(sight: &Sight, proposal: &Proposal) -> Option<Silhouette> {
         *corner = sight.pixel(&(proposal.axes[0] * pick(0) + proposal.axes[1] * pick(1) + z))?;
     }
     Some(Silhouette::new(corners))
-}
-
-/// The axis of the face by which a ray enters a closed box, and where, the reading being at 1.
-fn enter(eye: &[f64; 3], inverse: &[f64; 3], slabs: &[[f64; 2]; 3]) -> Option<(usize, f64)> {
-    let (mut entry, mut exit) = ((0, f64::NEG_INFINITY), f64::INFINITY);
-    for axis in 0..3 {
-        let (a, b) = ((slabs[axis][0] - eye[axis]) * inverse[axis], (slabs[axis][1] - eye[axis]) * inverse[axis]);
-        if a.min(b) > entry.1 {
-            entry = (axis, a.min(b));
-        }
-        exit = exit.min(a.max(b));
-    }
-    (entry.1 < exit && entry.1 > 0.0).then_some(entry)
-}
-
-struct Face {
-    axis: usize,
-    is_high: bool,
-    is_inner: bool,
-}
-
-/// The face that a ray meets of a box that is open at the top, and where, the reading being at 1.
-fn meet(eye: &[f64; 3], ray: &[f64; 3], inverse: &[f64; 3], slabs: &[[f64; 2]; 3]) -> Option<(Face, f64)> {
-    let (mut entry, mut exit) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
-    for axis in 0..3 {
-        let (a, b) = ((slabs[axis][0] - eye[axis]) * inverse[axis], (slabs[axis][1] - eye[axis]) * inverse[axis]);
-        let (near, far) = if a < b { (a, b) } else { (b, a) };
-        if near > entry.0 {
-            entry = (near, axis);
-        }
-        if far < exit.0 {
-            exit = (far, axis);
-        }
-    }
-    if entry.0 >= exit.0 || entry.0 <= 0.0 {
-        return None;
-    }
-    if entry.1 == 2 {
-        // By the opening, from above; from below nothing is seen of it.
-        let face = Face { axis: exit.1, is_high: ray[exit.1] > 0.0, is_inner: true };
-        return (ray[2] < 0.0).then_some((face, exit.0));
-    }
-    Some((Face { axis: entry.1, is_high: ray[entry.1] < 0.0, is_inner: false }, entry.0))
 }
