@@ -27,6 +27,8 @@ pub struct Turned {
     finger: TurnedFinger,
     /// The cosine between the tool's axis and the push direction.
     into_face: f64,
+    /// What turns the flap inward at that angle; 0 where it falls by itself.
+    closing_n_m: f64,
 }
 
 /// The contacts of one flap with one finger.
@@ -97,12 +99,14 @@ impl<'a> Contacts<'a> {
         let base_from_tool = base_from_tool.to_rotation_matrix().into_inner();
         let finger = TurnedFinger::new(self.finger, flap_from_tool(frame, &base_from_tool));
         let into_face = -finger.flap_from_tool[(2, 2)];
-        (into_face >= -self.settings.most_lean).then_some(Turned { base_from_tool, finger, into_face })
+        let cos = frame.away.dot(&self.flap.inward).clamp(-1.0, 1.0);
+        let closing_n_m = self.fold.closing_n_m(cos.acos()).max(0.0);
+        (into_face >= -self.settings.most_lean).then_some(Turned { base_from_tool, finger, into_face, closing_n_m })
     }
 
     /// As [`Contacts::grip`], of a finger that is turned already.
     pub fn grip_turned(&self, frame: &FlapFrame, at: [f64; 2], turned: &Turned) -> Option<Grip> {
-        let Turned { base_from_tool, finger, into_face } = turned;
+        let Turned { base_from_tool, finger, into_face, closing_n_m } = turned;
         let touch = finger.touch(&self.flap.outline, self.half_board_m, at)?;
         let lever = touch.contact[1] / self.flap.length_m();
         let tool = Vec3::new(at[0], at[1], touch.tool_outward_m + self.settings.touch_gap_m);
@@ -116,8 +120,9 @@ impl<'a> Contacts<'a> {
         }
         let aside = (touch.contact[0] / self.flap.hinge_length_m() - 0.5).abs();
         let contact = frame.at(contact.x, contact.y, contact.z);
-        let strain = self.strain(frame, touch.contact[1], &contact, &touch.normal);
-        let dragging = self.strain(frame, touch.contact[1], &contact, &dragged(&touch.normal));
+        let push = |normal: &Vec3| self.strain(frame, closing_n_m / (touch.contact[1] * normal.z), &contact, normal);
+        let strain = push(&touch.normal);
+        let dragging = dragged(&touch.normal).map_or(strain, |normal| push(&normal));
         let penalty = (1.0 - lever).max(0.0)
             + 0.6 * aside
             + (0.7 - into_face).max(0.0).powi(2)
@@ -132,25 +137,23 @@ impl<'a> Contacts<'a> {
         })
     }
 
-    /// Of a push against a direction, at a lever, that overcomes crease and weight; 0 where the flap falls by itself.
-    fn strain(&self, frame: &FlapFrame, lever_m: f64, contact: &Vec3, normal: &Vec3) -> f64 {
+    /// Of a push against a direction; of what it presses aside nothing turns the flap.
+    fn strain(&self, frame: &FlapFrame, push_n: f64, contact: &Vec3, normal: &Vec3) -> f64 {
         let Some(stand) = self.stand else { return 0.0 };
-        let cos = frame.away.dot(&self.flap.inward).clamp(-1.0, 1.0);
-        // What presses aside turns nothing.
-        let push_n = self.fold.closing_n_m(cos.acos()).max(0.0) / (lever_m * normal.z);
         let pressed = frame.along * normal.x + frame.away * normal.y + frame.outward * normal.z;
         stand.strain(contact, &(pressed * -push_n)).max(0.0)
     }
 }
 
-/// A touch's normal with the drag of a finger that slips on an edge: the further the way that its side leans already.
-fn dragged(normal: &Vec3) -> Vec3 {
+/// A touch's normal with the drag of a finger that slips on an edge: the further the way that its side leans already. None where it
+/// does not lean.
+fn dragged(normal: &Vec3) -> Option<Vec3> {
     let aside = Vec3::new(normal.x, normal.y, 0.0);
     let lean = aside.norm();
     if lean < LEAST_LEAN {
-        return *normal;
+        return None;
     }
-    normal + (aside * (normal.z / lean) - Vec3::z() * lean) * DRAG_SHARE
+    Some(normal + (aside * (normal.z / lean) - Vec3::z() * lean) * DRAG_SHARE)
 }
 
 /// The sine of a lean that is none.

@@ -1,6 +1,8 @@
 //! Turns a flap with the fingers astride its free edge. A couple loads the box far less than a push that turns the flap as far (eq. 97):
 //! it slides nothing, and tips with less of a lever. What slides the box is the outer finger alone, as it leans on the board's edge.
 
+use std::cell::Cell;
+
 use super::astride::{all_astride, Astride};
 use super::contact::Grip;
 use super::flap::Flap;
@@ -9,7 +11,7 @@ use super::line::Lines;
 use super::load::{Fold, Stand};
 use super::posture::nearest;
 use super::push::{layers_between, PushMotion};
-use super::searches::comes_and_goes;
+use super::searches::{comes_and_goes, MOST_CAUGHT_IN_ALL};
 use super::settings::PlanningSettings;
 use crate::arm::{Arm, JointPositions};
 use crate::geometry::Rigid;
@@ -28,6 +30,8 @@ pub struct Fork<'a, G: Guard> {
     pub before: &'a Moment,
     /// Down to where it is to be turned at the least, rad.
     pub until_rad: f64,
+    /// Motions so far after which the arm was caught.
+    pub caught: Cell<usize>,
 }
 
 /// The fingers at one opening.
@@ -43,6 +47,7 @@ impl<G: Guard> Fork<'_, G> {
         let all = all_astride(self.arm, self.flap, self.thickness_m, &self.settings.fork);
         all.into_iter()
             .filter(|astride| !self.moves_box(astride))
+            .take_while(|_| !self.is_caught())
             .find_map(|astride| Held { fork: self, guard: self.guard.with_opening(astride.opening_m), astride }.plan())
     }
 
@@ -58,6 +63,11 @@ impl<G: Guard> Fork<'_, G> {
             let at = frame.at(astride.pivot.x, astride.pivot.y, astride.pivot.z);
             stand.strain_with_couple(&at, &force_n, &couple) > self.settings.most_strain
         })
+    }
+
+    /// Was the arm caught so often that it will be again? To find that out takes long.
+    fn is_caught(&self) -> bool {
+        self.caught.get() > MOST_CAUGHT_IN_ALL
     }
 
     fn start_rad(&self) -> f64 {
@@ -78,7 +88,8 @@ impl<G: Guard> Held<'_, G> {
         // Flat where there is room for it.
         let lean_in = [0.0, fork.settings.fork.lean_in].into_iter().find(|&lean| !is_near(start_rad, lean))?;
         let solutions = fork.arm.inverse(&self.pose(start_rad, lean_in));
-        solutions.iter().find_map(|solution| self.with_ends(self.turned(&solution.positions, lean_in)?, lean_in))
+        let mut solutions = solutions.iter().take_while(|_| !fork.is_caught());
+        solutions.find_map(|solution| self.with_ends(self.turned(&solution.positions, lean_in)?, lean_in))
     }
 
     /// Leaning, down as far as the arm can follow, and flat again: first in wide steps, then in close ones.
@@ -162,6 +173,7 @@ impl<G: Guard> Held<'_, G> {
         let retreat = lines.draw_off(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after).ok()?;
         motion = PushMotion { approach, retreat, ..motion };
         if !comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) {
+            fork.caught.set(fork.caught.get() + 1);
             return None;
         }
         Some((motion, rest_rad))
@@ -177,5 +189,71 @@ impl<G: Guard> Held<'_, G> {
 
     fn clearance_m(&self) -> f64 {
         self.fork.settings.clearance_m + self.fork.settings.search_margin_m
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::flap::Standing;
+    use super::super::reason::Obstacle;
+    use super::*;
+    use crate::geometry::Vec3;
+
+    const VIPER: &str = include_str!("../../../src/boxwright/robots/data/viper_s850.toml");
+
+    /// Lets the arm be everywhere but near one posture, which it may not come to.
+    #[derive(Clone)]
+    struct Around(Option<JointPositions>);
+
+    impl Guard for Around {
+        fn conflict(&self, positions_rad: &[f64], _: &Moment, _: f64) -> Option<Obstacle> {
+            let kept = self.0?;
+            let is_near = positions_rad.iter().zip(kept.iter()).all(|(a, b)| (a - b).abs() < 0.2);
+            is_near.then_some(Obstacle::Something)
+        }
+
+        fn tool_conflict(&self, _: &Rigid, _: &Moment, _: f64) -> Option<Obstacle> {
+            None
+        }
+
+        fn with_opening(&self, _: f64) -> Self {
+            self.clone()
+        }
+    }
+
+    /// Was a way found, and after how many motions was the arm caught?
+    fn planned(arm: &Arm, kept: Option<JointPositions>) -> (bool, usize) {
+        let flap = Flap {
+            name: "flap_0".into(),
+            side: "side_0".into(),
+            standing: Standing::Seen,
+            hinge: Vec3::new(0.4, 0.1, 0.15),
+            axis: -Vec3::y(),
+            inward: Vec3::x(),
+            outline: [[0.0, 0.0], [0.2, 0.0], [0.2, 0.08], [0.0, 0.08]],
+            tucks: Vec::new(),
+            position_rad: 100f64.to_radians(),
+        };
+        let fork = Fork {
+            arm,
+            guard: &Around(kept),
+            settings: &PlanningSettings::default(),
+            flap: &flap,
+            number: 0,
+            thickness_m: 0.003,
+            fold: Fold { crease_n_m: 0.1, weight_n_m: 0.0, return_rad: 0.1 },
+            stand: None,
+            before: &Moment::resting(&[flap.position_rad]),
+            until_rad: 62f64.to_radians(),
+            caught: Cell::new(0),
+        };
+        (fork.plan().is_some(), fork.caught.get())
+    }
+
+    #[test]
+    fn an_arm_that_is_caught_again_and_again_is_not_tried_at_every_place() {
+        let arm = Arm::from_toml(VIPER).unwrap();
+        assert_eq!(planned(&arm, None), (true, 0));
+        assert_eq!(planned(&arm, Some(arm.ready)), (false, MOST_CAUGHT_IN_ALL + 1));
     }
 }

@@ -105,9 +105,13 @@ impl Fold {
 pub struct Stand {
     weight_n: f64,
     up: Vec3,
-    /// Going round.
-    base: [Vec3; 4],
     friction: f64,
+    /// The middle of the base.
+    centre: Vec3,
+    /// Where the friction of the base resists a turn as if all of it were so far from the middle.
+    spin_m: f64,
+    /// Of each edge of the base: an end, the unit vector out of the base, and how far it is from the base's middle.
+    edges: [(Vec3, Vec3, f64); 4],
 }
 
 impl Stand {
@@ -121,7 +125,19 @@ impl Stand {
         let height_m = rims.map(|corner| (corner - base[0]).dot(&up)).fold(0.0, f64::max);
         let contents_kg = assumed.contents_kg_per_m3 * area_m2(base) * height_m;
         let mass_kg = assumed.mass_kg.unwrap_or((boards_m2 + flaps_m2) * assumed.board_kg_per_m2 + contents_kg);
-        Some(Self { weight_n: mass_kg * GRAVITY_M_PER_S2, up, base: *base, friction: assumed.friction })
+        Some(Self::on(base, up, mass_kg * GRAVITY_M_PER_S2, assumed.friction))
+    }
+
+    /// On a base whose corners are told going round; what every push of a search asks for is reckoned here once.
+    fn on(base: &[Vec3; 4], up: Vec3, weight_n: f64, friction: f64) -> Self {
+        let centre = base.iter().sum::<Vec3>() / 4.0;
+        let edges = std::array::from_fn(|k| {
+            let (p, q) = (base[k], base[(k + 1) % 4]);
+            let outward = (q - p).cross(&up).normalize();
+            let outward = if outward.dot(&(centre - p)) > 0.0 { -outward } else { outward };
+            (p, outward, (p - centre).dot(&outward))
+        });
+        Self { weight_n, up, friction, centre, spin_m: SPIN_SHARE * (base[2] - base[0]).norm(), edges }
     }
 
     /// The share that a force (N) at a point is of what moves the box: slides it, turns it on the spot, or tips it over an edge of
@@ -132,34 +148,17 @@ impl Stand {
 
     /// The same of a force and a couple (N m), which turns the box on the spot and tips it.
     pub fn strain_with_couple(&self, at: &Vec3, force_n: &Vec3, couple_n_m: &Vec3) -> f64 {
-        let centre = self.base.iter().sum::<Vec3>() / 4.0;
         let lift_n = force_n.dot(&self.up);
         let level_n = force_n - self.up * lift_n;
-        let turn_n = ((at - centre).cross(&level_n) + couple_n_m).dot(&self.up) / self.spin_m();
+        let turn_n = ((at - self.centre).cross(&level_n) + couple_n_m).dot(&self.up) / self.spin_m;
         let drag_n = DRAG_SHARE * force_n.norm();
         let along_n = (level_n.norm_squared() + turn_n.powi(2) + drag_n.powi(2)).sqrt();
         let slides = (along_n + self.friction * lift_n) / (self.friction * self.weight_n);
-        self.edges().into_iter().fold(slides, |worst, (p, outward, lever_m)| {
-            let over_n_m = level_n.dot(&outward) * (at - p).dot(&self.up)
-                + lift_n * (p - at).dot(&outward)
-                + couple_n_m.dot(&self.up.cross(&outward));
+        self.edges.iter().fold(slides, |worst, (p, outward, lever_m)| {
+            let over_n_m = level_n.dot(outward) * (at - p).dot(&self.up)
+                + lift_n * (p - at).dot(outward)
+                + couple_n_m.dot(&self.up.cross(outward));
             worst.max(over_n_m / (self.weight_n * lever_m))
-        })
-    }
-
-    /// Where the friction of the base resists a turn as if all of it were so far from the middle.
-    fn spin_m(&self) -> f64 {
-        SPIN_SHARE * (self.base[2] - self.base[0]).norm()
-    }
-
-    /// Of each edge of the base: an end, the unit vector out of the base, and how far it is from the base's middle.
-    fn edges(&self) -> [(Vec3, Vec3, f64); 4] {
-        let centre = self.base.iter().sum::<Vec3>() / 4.0;
-        std::array::from_fn(|k| {
-            let (p, q) = (self.base[k], self.base[(k + 1) % 4]);
-            let outward = (q - p).cross(&self.up).normalize();
-            let outward = if outward.dot(&(centre - p)) > 0.0 { -outward } else { outward };
-            (p, outward, (p - centre).dot(&outward))
         })
     }
 }
@@ -224,7 +223,7 @@ mod tests {
 
     fn stand() -> Stand {
         let base = [[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]].map(|[x, y]| Vec3::new(x, y, 0.0));
-        Stand { weight_n: 10.0, up: Vec3::z(), base, friction: 0.4 }
+        Stand::on(&base, Vec3::z(), 10.0, 0.4)
     }
 
     #[test]

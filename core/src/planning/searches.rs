@@ -127,7 +127,7 @@ pub fn comes_and_goes<G: Guard>(
 /// How hard it is tried to get out of where a motion ends, and how many paths are given up for it, in one search and in all.
 const CAUGHT_TRIES: usize = 1000;
 const MOST_CAUGHT: usize = 2;
-const MOST_CAUGHT_IN_ALL: usize = 4;
+pub const MOST_CAUGHT_IN_ALL: usize = 4;
 
 /// Does a path begin and end with the arm, but for its wrist, where a motion does?
 fn is_alike(motion: &PushMotion, path: &[State]) -> bool {

@@ -1,5 +1,7 @@
 //! Turns a flap down in stages, each from where the one before leaves it: with the fingers astride it, pushed part of the way.
 
+use std::cell::Cell;
+
 use super::closing::Closer;
 use super::effort::{FIRST, USUAL};
 use super::fork::Fork;
@@ -90,6 +92,7 @@ impl<G: Guard> Closer<'_, G> {
             stand: self.load.stand.as_ref(),
             before: moment,
             until_rad,
+            caught: Cell::new(0),
         };
         fork.plan()
     }

@@ -22,6 +22,9 @@ pub struct TurnedFinger {
     corners: [Vec3; 8],
     /// The corner that reaches furthest in the push direction.
     furthest: Vec3,
+    /// The corners' least and greatest along the hinge and away from it.
+    least: [f64; 2],
+    most: [f64; 2],
 }
 
 /// A first touch.
@@ -52,7 +55,11 @@ impl TurnedFinger {
         let corners = finger.corners(&flap_from_tool);
         let furthest =
             corners[1..].iter().fold(corners[0], |best, corner| if corner.z < best.z { *corner } else { best });
-        Self { finger, flap_from_tool, corners, furthest }
+        let extreme = |pick: fn(f64, f64) -> f64| {
+            [0, 1].map(|axis| corners[1..].iter().map(|corner| corner[axis]).fold(corners[0][axis], pick))
+        };
+        let (least, most) = (extreme(f64::min), extreme(f64::max));
+        Self { finger, flap_from_tool, corners, furthest, least, most }
     }
 
     /// The touch of the finger when its tool point is `at` (along, away) in the flap's plane.
@@ -68,34 +75,41 @@ impl TurnedFinger {
             let (tool_outward_m, contact) = (half_board_m - self.furthest.z, place(&self.furthest));
             return Some(Touch { tool_outward_m, contact, normal: Vec3::z() });
         }
-        let mut lowest: Option<(f64, [f64; 2], Vec3)> = None;
-        let mut consider = |w: f64, place: [f64; 2], square: Vec3| {
-            if lowest.is_none_or(|(best, ..)| w < best) {
-                lowest = Some((w, place, square));
-            }
-        };
+        if self.is_beside(outline, at) {
+            return None;
+        }
+        let mut lowest: Option<Low> = None;
         for corner in corners {
             if contains(outline, place(corner)) {
-                consider(corner.z, place(corner), Vec3::z());
+                keep_lowest(&mut lowest, (corner.z, place(corner), Vec3::z()));
             }
         }
         for a in 0..8usize {
             for bit in [1, 2, 4] {
-                if a & bit == 0 {
-                    cross_edges(outline, &corners[a], &corners[a | bit], at, &mut consider);
+                // What lies wholly above what was found reaches no further.
+                if a & bit == 0 && lowest.is_none_or(|(best, ..)| corners[a].z.min(corners[a | bit].z) < best) {
+                    cross_edges(outline, &corners[a], &corners[a | bit], at, &mut lowest);
                 }
             }
         }
         for corner in outline {
             let offset = [corner[0] - at[0], corner[1] - at[1]];
             if let Some((w, square)) = self.lowest_over(offset) {
-                consider(w, *corner, square);
+                keep_lowest(&mut lowest, (w, *corner, square));
             }
         }
         lowest.map(|(w, contact, square)| {
             let normal = square.try_normalize(0.0).unwrap_or(Vec3::z());
             let normal = if normal.z < 0.0 { -normal } else { normal };
             Touch { tool_outward_m: half_board_m - w, contact, normal }
+        })
+    }
+
+    /// Is all of the finger to one side of the outline?
+    fn is_beside(&self, outline: &[[f64; 2]; 4], at: [f64; 2]) -> bool {
+        (0..2).any(|axis| {
+            let (low, high) = (at[axis] + self.least[axis], at[axis] + self.most[axis]);
+            outline.iter().all(|corner| corner[axis] < low) || outline.iter().all(|corner| corner[axis] > high)
         })
     }
 
@@ -125,14 +139,17 @@ impl TurnedFinger {
     }
 }
 
+/// How low the finger reaches, where over the flap, and what is square to it there.
+type Low = (f64, [f64; 2], Vec3);
+
+fn keep_lowest(lowest: &mut Option<Low>, found: Low) {
+    if lowest.is_none_or(|(best, ..)| found.0 < best) {
+        *lowest = Some(found);
+    }
+}
+
 /// Where the finger's edge from p to q passes over an edge of the flap.
-fn cross_edges(
-    outline: &[[f64; 2]; 4],
-    p: &Vec3,
-    q: &Vec3,
-    at: [f64; 2],
-    consider: &mut impl FnMut(f64, [f64; 2], Vec3),
-) {
+fn cross_edges(outline: &[[f64; 2]; 4], p: &Vec3, q: &Vec3, at: [f64; 2], lowest: &mut Option<Low>) {
     let (px, py) = (at[0] + p.x, at[1] + p.y);
     let (dx, dy) = (q.x - p.x, q.y - p.y);
     for k in 0..4 {
@@ -146,7 +163,7 @@ fn cross_edges(
         let t = ((a[0] - px) * dy - (a[1] - py) * dx) / cross;
         if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
             let square = (q - p).cross(&Vec3::new(ex, ey, 0.0));
-            consider(p.z + s * (q.z - p.z), [a[0] + t * ex, a[1] + t * ey], square);
+            keep_lowest(lowest, (p.z + s * (q.z - p.z), [a[0] + t * ex, a[1] + t * ey], square));
         }
     }
 }
