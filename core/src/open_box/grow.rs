@@ -96,7 +96,7 @@ pub fn grow(
     let settings = competing(settings);
     let (body, present) = with_flaps(body, flaps);
     let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
-    let solution = refit(sight, &body, &present, &labels, &nearing(&settings)).ok()?;
+    let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
     sound(&solution.body).ok()?;
     let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, ONCE_FITTED_M, FINE_SCAN));
     let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
@@ -109,11 +109,6 @@ pub fn grow(
 /// Of boxes that still compete, and of places that are not yet known well.
 pub fn competing(settings: &FitSettings) -> FitSettings {
     FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }
-}
-
-/// Of a proposal, whose readings are given to its panels anew once it has come near.
-fn nearing(settings: &FitSettings) -> FitSettings {
-    FitSettings { coarse_cuts: &[12.0], last_cut: 6.0, least_gain: 0.1, ..*settings }
 }
 
 /// Of a body that has been fitted to nearly the same readings.

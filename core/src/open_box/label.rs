@@ -26,7 +26,7 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, 
         let skipped = ((first - left as f64) / stride as f64).ceil().clamp(0.0, sight.width as f64);
         let first = left + skipped as usize * stride;
         let last = last.clamp(0.0, right as f64) as usize;
-        for column in (first..=last).step_by(stride) {
+        for column in (first..last + 1).step_by(stride) {
             let index = row * sight.width + column;
             let Some(look) = sight.look(index) else { continue };
             let point = look.at();
