@@ -99,11 +99,11 @@ impl Planes {
     fn near(&self, q: &Vec3, most: f64) -> u32 {
         let ([x, y, z], most) = ([q.x as f32, q.y as f32, q.z as f32], most as f32);
         let mut bits = 0;
-        for lane in 0..LANES {
+        for (lane, bit) in BITS.iter().enumerate() {
             let along = self.normal[0][lane] * x + self.normal[1][lane] * y + self.normal[2][lane] * z;
             let off = (along - self.distance[lane]).abs();
             // No shift: lanes differ in it, which keeps them from being worked out side by side.
-            bits |= BITS[lane] & 0_u32.wrapping_sub(u32::from(off <= most + self.slack_m[lane]));
+            bits |= bit & 0_u32.wrapping_sub(u32::from(off <= most + self.slack_m[lane]));
         }
         bits
     }

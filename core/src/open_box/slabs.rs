@@ -86,8 +86,8 @@ impl Slabs {
     /// The axis of the face by which a ray enters a closed box, and where, the reading being at 1.
     pub fn enter(&self, inverse: [f32; 3]) -> Option<(usize, f32)> {
         let (mut entry, mut exit) = ((0, f32::NEG_INFINITY), f32::INFINITY);
-        for axis in 0..3 {
-            let [a, b] = self.near[axis].map(|at| at * inverse[axis]);
+        for (axis, inverse) in inverse.into_iter().enumerate() {
+            let [a, b] = self.near[axis].map(|at| at * inverse);
             if a.min(b) > entry.1 {
                 entry = (axis, a.min(b));
             }
