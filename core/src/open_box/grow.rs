@@ -101,7 +101,7 @@ pub fn grow(
     let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, ONCE_FITTED_M, FINE_SCAN));
     let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
     drop_unsure(sight, &body, &mut labels);
-    let solution = refit(sight, &body, &present, &labels, &from_near(&settings)).ok()?;
+    let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
     sound(&solution.body).ok()?;
     Some(weigh(sight, solution, present, COARSE_STRIDE))
 }
@@ -109,11 +109,6 @@ pub fn grow(
 /// Of boxes that still compete, and of places that are not yet known well.
 pub fn competing(settings: &FitSettings) -> FitSettings {
     FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }
-}
-
-/// Of a body that has been fitted to nearly the same readings.
-fn from_near(settings: &FitSettings) -> FitSettings {
-    FitSettings { coarse_cuts: &[6.0], ..*settings }
 }
 
 /// Refuses a body that no box has.

@@ -289,3 +289,43 @@ pub fn lowest(scene: &Scene) -> Option<Plane> {
     let heights = scene.segments.hulls.iter().flatten().map(|corner| scene.up.dot(corner));
     Some(Plane { normal: scene.up, distance: heights.reduce(f64::min)? })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::SplitMix64;
+    use crate::perception::PerceptionSettings;
+
+    #[test]
+    fn rows_say_what_their_points_say() {
+        // A wavy floor before a pinhole camera, with holes.
+        let (width, height, focal) = (160, 120, 130.0_f32);
+        let place = |i: usize| {
+            let (u, v) = ((i % width) as f32, (i / width) as f32);
+            let z = if i % 11 == 0 { f32::NAN } else { 1.2 + 0.02 * (u / 7.0).sin() * (v / 5.0).cos() };
+            [(u - 80.0) / focal * z, (v - 60.0) / focal * z, z]
+        };
+        let points: Vec<[f32; 3]> = (0..width * height).map(place).collect();
+        let cloud = CloudView { points: &points, width, height, viewpoint: Some(Vec3::zeros()) };
+        let settings = PerceptionSettings::default();
+        let readings = Readings::new(&cloud, &settings);
+        let sight = Sight::in_level(&cloud, &readings, Isometry3::identity()).unwrap();
+        let mut random = SplitMix64::new(3);
+        let mut draw = |low: f64, high: f64| low + random.unit() * (high - low);
+        let mut counts = [0; 5];
+        for _ in 0..400 {
+            let along = Vec3::new(draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-0.3, 0.3)).normalize();
+            let normal = along.cross(&Vec3::new(draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0))).normalize();
+            let middle = Vec3::new(draw(-0.8, 0.8), draw(-0.6, 0.6), draw(1.15, 1.25));
+            let columns_m: [f64; 12] = std::array::from_fn(|i| 0.02 * (i as f64 - 5.5));
+            let rows = sight.rows(along);
+            for ((says, look), column_m) in rows.ask(&middle, &normal, 0.004, &columns_m).zip(columns_m) {
+                let (expected, reading) = sight.ask(&(middle + along * column_m), &normal, 0.004);
+                assert_eq!((says, look.map(Reading::at)), (expected, reading.map(Reading::at)));
+                counts[says as usize] += 1;
+            }
+        }
+        assert_eq!(counts.iter().sum::<usize>(), 4800);
+        assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
+    }
+}

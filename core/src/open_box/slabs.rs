@@ -128,3 +128,96 @@ impl Slabs {
         is_any.bitselect(closes.bitselect(splat(LID), says), splat(NOTHING)).to_array().map(|says| says as u32)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::SplitMix64;
+
+    const TOLERANCE: f64 = 0.004;
+
+    /// One ray by itself: the face that it meets, in the order in which it comes to them. `None` where rounding may tell it otherwise.
+    fn one_by_one(slabs: &[[f64; 2]; 3], ray: [f64; 3]) -> Option<f32> {
+        let (mut entry, mut exit) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
+        let mut met: Vec<f64> = Vec::new();
+        for axis in 0..3 {
+            let (a, b) = (slabs[axis][0] / ray[axis], slabs[axis][1] / ray[axis]);
+            let (near, far) = if a < b { (a, b) } else { (b, a) };
+            entry = if near > entry.0 { (near, axis) } else { entry };
+            exit = if far < exit.0 { (far, axis) } else { exit };
+            met.extend([near, far]);
+        }
+        let is_close = |a: f64, b: f64| (a - b).abs() < 1e-4;
+        if (0..6).any(|i| (0..i).any(|j| is_close(met[i], met[j]))) || is_close(entry.0, 0.0) {
+            return None;
+        }
+        let is_inner = entry.1 == 2;
+        if entry.0 >= exit.0 || entry.0 <= 0.0 || (is_inner && ray[2] > 0.0) {
+            return Some(NOTHING);
+        }
+        let (at, axis) = if is_inner { exit } else { entry };
+        let over = ray[2] - slabs[2][1];
+        let lid = f64::from(LID_M) + TOLERANCE * ray[2].abs() - over.abs();
+        if is_inner && lid > 1e-4 {
+            return Some(LID);
+        }
+        let reach = ray[axis].abs();
+        let (off, most) = ((1.0 - at) * reach, TOLERANCE * reach + f64::from(MODEL_M));
+        if (is_inner && lid > -1e-4) || is_close(off.abs(), most) {
+            return None;
+        }
+        let inside = if is_inner && over < 0.0 { INSIDE } else { 0.0 };
+        let face = if axis == 2 {
+            BASE
+        } else {
+            4.0 * axis as f32 + 2.0 * f32::from((ray[axis] > 0.0) == is_inner) + f32::from(is_inner)
+        };
+        Some(
+            inside
+                + if off > most {
+                    THROUGH
+                } else if off < -most {
+                    HIDDEN
+                } else {
+                    face
+                },
+        )
+    }
+
+    #[test]
+    fn four_together_say_what_each_says() {
+        let mut random = SplitMix64::new(11);
+        let mut draw = |low: f64, high: f64| low + random.unit() * (high - low);
+        let (mut kinds, mut cases) = ([0; 2 * KINDS], 0);
+        for _ in 0..3000 {
+            // A box below and before the eye, rays to what lies about its faces.
+            let (x, y, top) = (draw(-0.4, 0.4), draw(0.5, 1.2), draw(-0.6, -0.2));
+            let half = [draw(0.05, 0.3), draw(0.05, 0.3)];
+            let slabs = [[x - half[0], x + half[0]], [y - half[1], y + half[1]], [top - draw(0.05, 0.3), top]];
+            let near = slabs.map(|slab| slab.map(|at| at as f32));
+            let rays: [[f64; 3]; LANES] = std::array::from_fn(|lane| {
+                let mut end = slabs.map(|[low, high]| draw(low - 0.02, high + 0.02));
+                let axis = lane % 3;
+                end[axis] = slabs[axis][usize::from(draw(0.0, 1.0) > 0.5)] + draw(-0.03, 0.03);
+                end
+            });
+            let lane = |of: &dyn Fn(f64) -> f64| {
+                std::array::from_fn(|axis| f32x4::new(std::array::from_fn(|k| of(rays[k][axis]) as f32)))
+            };
+            let lanes = Lanes { rays: lane(&|along| along), inverses: lane(&|along| 1.0 / along) };
+            let says = Slabs { near }.meet(&lanes, f32x4::splat(TOLERANCE as f32));
+            for (says, ray) in says.into_iter().zip(rays) {
+                let Some(expected) = one_by_one(&slabs, ray) else { continue };
+                assert_eq!(says, expected as u32, "{slabs:?} {ray:?}");
+                kinds[says as usize] += 1;
+                cases += 1;
+            }
+        }
+        assert!(cases > 11_000, "{cases}");
+        // Outer and inner faces of all walls that the eye can see, and everything else that a ray may say.
+        assert!(kinds.iter().filter(|count| **count > 20).count() >= 12, "{kinds:?}");
+        let blank = Lanes { rays: [f32x4::splat(f32::NAN); 3], inverses: [f32x4::splat(f32::NAN); 3] };
+        let slabs = Slabs { near: [[-0.1, 0.1], [0.5, 0.7], [-0.5, -0.3]] };
+        assert_eq!(slabs.meet(&blank, f32x4::splat(0.004)), [NOTHING as u32; LANES]);
+    }
+}
