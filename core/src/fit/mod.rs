@@ -1,6 +1,7 @@
 //! One articulated body fitted to the readings of an assignment's segments (docs/maths.md, "The fitted body").
 
 mod answer;
+mod block;
 mod body;
 mod factor;
 mod forward;

@@ -101,7 +101,7 @@ impl Rays {
         let outline = outline(sight, proposal)?;
         let [_, _, top, bottom] = self.bounds(sight, &outline)?;
         let slabs = Slabs::new(proposal, &turned.eye);
-        let rows: Vec<Range<usize>> = (top..=bottom).map(|row| self.columns(&outline, row)).collect();
+        let rows: Vec<Range<usize>> = (top..=bottom).map(|row| self.columns(sight, &outline, row)).collect();
         let mut left_over: usize = rows.iter().map(Range::len).sum();
         let mut counts = Counts::default();
         for (row, columns) in (top..=bottom).zip(rows) {
@@ -125,7 +125,7 @@ impl Rays {
         let [_, _, top, bottom] = self.bounds(sight, &outline)?;
         let slabs = Slabs::new(proposal, &turned.eye);
         let mut score = 0.0;
-        let of_row = |row: usize| self.columns(&outline, row).map(move |column| row * self.columns + column);
+        let of_row = |row: usize| self.columns(sight, &outline, row).map(move |column| row * self.columns + column);
         for k in (top..=bottom).flat_map(of_row) {
             let Some((axis, at)) = slabs.enter(turned.inverses.each_ref().map(|of| of[k])) else { continue };
             let reach = turned.rays[axis][k].abs();
@@ -141,13 +141,13 @@ impl Rays {
     }
 
     /// Of a row of the grid those that may meet the box.
-    fn columns(&self, outline: &Silhouette, row: usize) -> Range<usize> {
-        // The last column and row may be nearer.
-        let half = (STRIDE / 2) as f64;
-        let [low, high] = outline.columns((row * STRIDE) as f64 + half);
-        let (low, high) = ((low - half) / STRIDE as f64, (high - half) / STRIDE as f64);
-        low.ceil().clamp(0.0, self.columns as f64) as usize
-            ..(high.floor() + 1.0).clamp(0.0, self.columns as f64) as usize
+    fn columns(&self, sight: &Sight, outline: &Silhouette, row: usize) -> Range<usize> {
+        let (half, pixels) = ((STRIDE / 2) as f64, STRIDE as f64);
+        // The last row and column may be nearer to those before.
+        let [low, high] = outline.columns((row as f64 * pixels + half).min(sight.height as f64 - 1.0));
+        let end = if high < sight.width as f64 - 1.0 { (high - half) / pixels + 1.0 } else { self.columns as f64 };
+        let cell = |at: f64| at.clamp(0.0, self.columns as f64) as usize;
+        cell(((low - half) / pixels).ceil())..cell(end.floor())
     }
 
     /// Of a box in the grid of rays: left, right, top, bottom, inclusive.

@@ -302,7 +302,10 @@ mod tests {
         let (width, height, focal) = (160, 120, 130.0_f32);
         let place = |i: usize| {
             let (u, v) = ((i % width) as f32, (i / width) as f32);
-            let z = if i % 11 == 0 { f32::NAN } else { 1.2 + 0.02 * (u / 7.0).sin() * (v / 5.0).cos() };
+            let z = match i % 11 {
+                0 => f32::NAN,
+                _ => 1.2 + 0.02 * (u / 7.0).sin() * (v / 5.0).cos(),
+            };
             [(u - 80.0) / focal * z, (v - 60.0) / focal * z, z]
         };
         let points: Vec<[f32; 3]> = (0..width * height).map(place).collect();
