@@ -1,8 +1,14 @@
 //! The sums of one part's rows.
 
 use super::layout::{place_of_slot, SLOT_COUNT};
-use super::problem::{cauchy, Linearized};
+use super::linearized::Linearized;
 use super::row::Row;
+
+/// Half of Cauchy's loss of a residual in standard deviations, and the weight it leaves the residual.
+pub fn cauchy(residual: f64, cut: f64) -> (f64, f64) {
+    let ratio = 1.0 + (residual / cut).powi(2);
+    (0.5 * cut * cut * ratio.ln(), 1.0 / ratio)
+}
 
 /// Rows wait for so many others: the sums then stay in registers while all of them are added.
 const WAITING: usize = 8;
@@ -89,6 +95,7 @@ impl<const COUNT: usize> Block<COUNT> {
     }
 }
 
+/// As many slots as a tile has, without a call.
 #[inline(always)]
 fn part_of(row: &[f64; PADDED], from: usize) -> [f64; TILE] {
     std::array::from_fn(|i| row[from + i])

@@ -7,6 +7,7 @@ mod factor;
 mod forward;
 mod known_size;
 pub(crate) mod layout;
+mod linearized;
 mod object;
 mod other_view;
 mod panel;

@@ -5,7 +5,8 @@ use nalgebra::{DMatrix, Isometry3, Matrix6, SVector, Translation3, UnitQuaternio
 
 use super::body::{FittedBody, Parameters};
 use super::layout::{PARAMETER_COUNT, POSE_COUNT};
-use super::problem::{add_part, for_each_row, Linearized};
+use super::linearized::Linearized;
+use super::problem::{add_part, for_each_row};
 use super::readings::PartReadings;
 use crate::geometry::Vec3;
 

@@ -4,8 +4,8 @@ use nalgebra::{DVector, Isometry3};
 
 use super::derivative_tests::Draw;
 use super::layout::*;
+use super::linearized::Linearized;
 use super::other_view::{OtherView, PlaceSigma};
-use super::problem::Linearized;
 use super::readings::PartReadings;
 use super::recovery_tests::{a_box, disturbed, hinge_errors, problem, readings};
 use super::roles::Role;

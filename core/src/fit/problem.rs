@@ -1,9 +1,10 @@
-use nalgebra::{DMatrix, Isometry3};
+use nalgebra::Isometry3;
 
-use super::block::Block;
-use super::body::{FittedBody, Parameters};
-use super::layout::{LENGTH, PARAMETER_COUNT, SHIFT, TURN, WIDTH};
+use super::block::{cauchy, Block};
+use super::body::FittedBody;
+use super::layout::{LENGTH, SHIFT, TURN, WIDTH};
 use super::layout::{SLOT_BULGE, SLOT_COUNT, SLOT_FLAP, SLOT_TUCK};
+use super::linearized::Linearized;
 use super::other_view::OtherView;
 use super::panel::Panel;
 use super::priors::Prior;
@@ -29,30 +30,6 @@ pub struct Problem {
     pub support: Option<Support>,
     pub priors: Vec<Prior>,
     pub settings: FitSettings,
-}
-
-/// The objective at a body, half the robust sum of squares, with its gradient and Gauss-Newton curvature (eq. 81, 82).
-#[derive(Debug, Clone)]
-pub struct Linearized {
-    pub cost: f64,
-    pub gradient: Parameters,
-    /// Lower triangle.
-    pub curvature: DMatrix<f64>,
-    /// Of the other views' readings, object's frame: those that suit the body best.
-    pub motions: Vec<Isometry3<f64>>,
-}
-
-impl Linearized {
-    pub fn zeros() -> Self {
-        let curvature = DMatrix::zeros(PARAMETER_COUNT, PARAMETER_COUNT);
-        Self { cost: 0.0, gradient: Parameters::zeros(), curvature, motions: Vec::new() }
-    }
-}
-
-/// Half of Cauchy's loss of a residual in standard deviations, and the weight it leaves the residual.
-pub fn cauchy(residual: f64, cut: f64) -> (f64, f64) {
-    let ratio = 1.0 + (residual / cut).powi(2);
-    (0.5 * cut * cut * ratio.ln(), 1.0 / ratio)
 }
 
 /// The support says as much of boxes that would sink into it, however deep.

@@ -2,7 +2,8 @@ use nalgebra::{DMatrix, Isometry3};
 
 use super::body::{FittedBody, Parameters};
 use super::factor::Factor;
-use super::problem::{Linearized, Problem};
+use super::linearized::Linearized;
+use super::problem::Problem;
 use super::refusal::NotFitted;
 
 /// A body at which the objective is least, and the covariance of its numbers there.

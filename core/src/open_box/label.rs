@@ -136,12 +136,9 @@ fn object_bounds(body: &FittedBody, present: &Present) -> (Vec3, Vec3) {
 
 /// Of what lies between two corners of the object's frame: its outline in the image, and left, right, top, bottom, inclusive.
 fn bounds(sight: &Sight, body: &FittedBody, low: &Vec3, high: &Vec3) -> Option<(Silhouette, [usize; 4])> {
-    let mut corners = [[0.0; 2]; 8];
-    for (number, corner) in corners.iter_mut().enumerate() {
-        let pick = |a: usize| if number >> a & 1 == 0 { low[a] } else { high[a] };
-        *corner = sight.pixel(&body.to_input(&Vec3::new(pick(0), pick(1), pick(2))))?;
-    }
-    let outline = Silhouette::new(corners);
+    let ends = [low, high];
+    let corner = |[i, j, k]: [usize; 3]| Vec3::new(ends[i].x, ends[j].y, ends[k].z);
+    let outline = Silhouette::of(|of| sight.pixel(&body.to_input(&corner(of))))?;
     let bounds = outline.bounds();
     let cell = |at: f64, count: usize| at.clamp(0.0, count as f64 - 1.0) as usize;
     let (width, height) = (sight.width, sight.height);

@@ -169,11 +169,9 @@ impl Rays {
 
 /// Of the box in the image; `None` of one that reaches behind the camera.
 fn outline(sight: &Sight, proposal: &Proposal) -> Option<Silhouette> {
-    let mut corners = [[0.0; 2]; 8];
-    for (number, corner) in corners.iter_mut().enumerate() {
-        let pick = |a: usize| proposal.spans[a][number >> a & 1];
-        let z = proposal.up * proposal.heights[number >> 2];
-        *corner = sight.pixel(&(proposal.axes[0] * pick(0) + proposal.axes[1] * pick(1) + z))?;
-    }
-    Some(Silhouette::new(corners))
+    let [x, y] = &proposal.spans;
+    Silhouette::of(|[i, j, k]| {
+        let level = proposal.axes[0] * x[i] + proposal.axes[1] * y[j];
+        sight.pixel(&(level + proposal.up * proposal.heights[k]))
+    })
 }

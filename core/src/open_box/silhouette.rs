@@ -33,8 +33,17 @@ pub struct Silhouette {
 
 impl Silhouette {
     /// Of corners in pixels; bit `a` of a corner's number is its end along axis `a`.
-    pub fn new(corners: [[f64; 2]; 8]) -> Self {
+    fn new(corners: [[f64; 2]; 8]) -> Self {
         Self { corners, lines: EDGES.map(|[a, b]| Line::new(corners[a], corners[b])) }
+    }
+
+    /// Of the pixels that see the corners, told by their ends along the axes; `None` where one of them lies behind the camera.
+    pub fn of(pixel: impl Fn([usize; 3]) -> Option<[f64; 2]>) -> Option<Self> {
+        let mut corners = [[0.0; 2]; 8];
+        for (number, corner) in corners.iter_mut().enumerate() {
+            *corner = pixel([number & 1, number >> 1 & 1, number >> 2])?;
+        }
+        Some(Self::new(corners))
     }
 
     /// Left, right, top, bottom.

@@ -72,22 +72,22 @@ impl Counts {
 
 /// A box between three pairs of planes, as its rays see it from the eye.
 pub struct Slabs {
-    /// From the eye.
-    near: [[f32; 2]; 3],
+    /// Along each axis, from the eye, metres.
+    places: [[f32; 2]; 3],
 }
 
 impl Slabs {
     pub fn new(proposal: &Proposal, eye: &[f32; 3]) -> Self {
         let [x, y] = proposal.spans;
         let slabs = [x, y, proposal.heights];
-        Self { near: std::array::from_fn(|axis| slabs[axis].map(|at| at as f32 - eye[axis])) }
+        Self { places: std::array::from_fn(|axis| slabs[axis].map(|at| at as f32 - eye[axis])) }
     }
 
     /// The axis of the face by which a ray enters a closed box, and where, the reading being at 1.
     pub fn enter(&self, inverse: [f32; 3]) -> Option<(usize, f32)> {
         let (mut entry, mut exit) = ((0, f32::NEG_INFINITY), f32::INFINITY);
         for (axis, inverse) in inverse.into_iter().enumerate() {
-            let [a, b] = self.near[axis].map(|at| at * inverse);
+            let [a, b] = self.places[axis].map(|at| at * inverse);
             if a.min(b) > entry.1 {
                 entry = (axis, a.min(b));
             }
@@ -100,7 +100,7 @@ impl Slabs {
     pub fn meet(&self, lanes: &Lanes, tolerance: f32x4) -> [u32; LANES] {
         let (zero, splat) = (f32x4::ZERO, f32x4::splat);
         let slab = |axis: usize| {
-            let [a, b] = self.near[axis].map(|at| splat(at) * lanes.inverses[axis]);
+            let [a, b] = self.places[axis].map(|at| splat(at) * lanes.inverses[axis]);
             (a.fast_min(b), a.fast_max(b))
         };
         let ([x, y, z], [from, to, (above, below)]) = (lanes.rays, [slab(0), slab(1), slab(2)]);
@@ -118,7 +118,7 @@ impl Slabs {
         let reach = along.abs();
         let off = (splat(1.0) - at) * reach;
         let most = tolerance * reach + splat(MODEL_M);
-        let over_opening = z - splat(self.near[2][1]);
+        let over_opening = z - splat(self.places[2][1]);
         let closes = is_inner & over_opening.abs().simd_lt(splat(LID_M) + tolerance * z.abs());
         let is_inside = is_inner & over_opening.simd_lt(zero) & splat(INSIDE);
         let wall = (is_y & splat(4.0)) + (is_high & splat(2.0)) + (is_inner & splat(1.0));
@@ -194,7 +194,7 @@ mod tests {
             let (x, y, top) = (draw(-0.4, 0.4), draw(0.5, 1.2), draw(-0.6, -0.2));
             let half = [draw(0.05, 0.3), draw(0.05, 0.3)];
             let slabs = [[x - half[0], x + half[0]], [y - half[1], y + half[1]], [top - draw(0.05, 0.3), top]];
-            let near = slabs.map(|slab| slab.map(|at| at as f32));
+            let places = slabs.map(|slab| slab.map(|at| at as f32));
             let rays: [[f64; 3]; LANES] = std::array::from_fn(|lane| {
                 let mut end = slabs.map(|[low, high]| draw(low - 0.02, high + 0.02));
                 let axis = lane % 3;
@@ -205,7 +205,7 @@ mod tests {
                 std::array::from_fn(|axis| f32x4::new(std::array::from_fn(|k| of(rays[k][axis]) as f32)))
             };
             let lanes = Lanes { rays: lane(&|along| along), inverses: lane(&|along| 1.0 / along) };
-            let says = Slabs { near }.meet(&lanes, f32x4::splat(TOLERANCE as f32));
+            let says = Slabs { places }.meet(&lanes, f32x4::splat(TOLERANCE as f32));
             for (says, ray) in says.into_iter().zip(rays) {
                 let Some(expected) = one_by_one(&slabs, ray) else { continue };
                 assert_eq!(says, expected as u32, "{slabs:?} {ray:?}");
@@ -217,7 +217,7 @@ mod tests {
         // Outer and inner faces of all walls that the eye can see, and everything else that a ray may say.
         assert!(kinds.iter().filter(|count| **count > 20).count() >= 12, "{kinds:?}");
         let blank = Lanes { rays: [f32x4::splat(f32::NAN); 3], inverses: [f32x4::splat(f32::NAN); 3] };
-        let slabs = Slabs { near: [[-0.1, 0.1], [0.5, 0.7], [-0.5, -0.3]] };
+        let slabs = Slabs { places: [[-0.1, 0.1], [0.5, 0.7], [-0.5, -0.3]] };
         assert_eq!(slabs.meet(&blank, f32x4::splat(0.004)), [NOTHING as u32; LANES]);
     }
 }
