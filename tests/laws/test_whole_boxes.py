@@ -283,3 +283,15 @@ def test_boxes_on_their_side_are_found_and_measured(index: int) -> None:
         refuse_poses(inferred.model, found, np.eye(4))
     assert box.flaps_right == box.flaps_in_cloud
     assert box.flaps_wrong == 0
+
+
+@pytest.mark.parametrize("index", [19, 41, 194])
+def test_two_boards_that_stand_in_a_corner_are_no_box(index: int) -> None:
+    """A box has four sides: where the others would be the camera looks at the floor."""
+    assert not boxwright.infer(cloud_of(make_frame("none", 8802, index))).model.objects
+
+
+@pytest.mark.parametrize("index", [88, 99, 110, 166])
+def test_blocks_upon_each_other_and_shelves_are_no_box(index: int) -> None:
+    """Sides, flaps that stand up and tops of them suit the readings; nothing of an inside is seen."""
+    assert not boxwright.infer(cloud_of(make_frame("none", 8802, index))).model.objects

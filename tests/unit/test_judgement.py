@@ -56,9 +56,12 @@ def test_a_judgement_that_does_not_fit_is_named() -> None:
         "no_such_weight": lambda judgement: judgement["box"]["weights"].update(no_such_weight=1.0),
         "no_such_feature": lambda judgement: judgement["part"]["trees"].append(["lean", 0.1, 0.0, unknown_leaf]),
         "told_from: 1.5": lambda judgement: judgement["part"].update(told_from=1.5),
-        "told_from: 2": lambda judgement: judgement["box"]["small"].update(told_from=2.0),
-        "edge_m: -0.1": lambda judgement: judgement["box"]["small"].update(edge_m=-0.1),
-        "missing field `edge_m`": lambda judgement: judgement["box"]["small"].pop("edge_m"),
+        "told_from: 2": lambda judgement: judgement["box"]["doubts"][0].update(told_from=2.0),
+        "doubts: no_such_one is not known": lambda judgement: judgement["box"]["doubts"][1].update(
+            feature="no_such_one"
+        ),
+        "doubts: side_absent has not one": lambda judgement: judgement["box"]["doubts"][2].pop("above"),
+        "doubts: shorter_edge has not one": lambda judgement: judgement["box"]["doubts"][0].update(above=1.0),
         "Tree": lambda judgement: judgement["box"]["trees"].append(["lean", 0.5]),
     }
     for expected, change in changes.items():

@@ -4,19 +4,22 @@ use super::assignments::Assignments;
 use super::ends::goes_on;
 use super::evidence::{Evidence, Sheet};
 use super::grow::{FoundBox, FINE_M};
+use super::judgement::Judgement;
 use super::lean::lean;
 use super::owners::Owners;
 use super::rims;
 use super::settle::lowest_m;
 use super::sight::Sight;
+use super::told::is_told;
 use super::upright::lies;
 use crate::fit::{layout, lid_length_m, FittedBody, Role};
+use crate::free_space::PartState;
 
 /// Named values, always in the same order.
 pub type Features = Vec<(&'static str, f64)>;
 
 /// Their names, in order.
-pub const BOX_FEATURES: [&str; 34] = [
+pub const BOX_FEATURES: [&str; 35] = [
     "one",
     "on_walls",
     "on_inner_faces",
@@ -51,6 +54,7 @@ pub const BOX_FEATURES: [&str; 34] = [
     "score",
     "longest_flap",
     "flaps_unlike",
+    "side_absent",
 ];
 pub const PART_FEATURES: [&str; 19] = [
     "one",
@@ -98,8 +102,8 @@ fn share(part: f64, rest: f64) -> f64 {
     part / (part + rest + 1.0)
 }
 
-/// Of the whole box.
-pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox) -> Features {
+/// Of the whole box; which of its panels are told follows from their features, where it has these.
+pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox, judgement: Option<&Judgement>) -> Features {
     let body = &found.solution.body;
     let opening = Sheet::of_opening(body, &sight.eye).look(sight, FINE_M);
     let readings = |wanted: &dyn Fn(Role) -> bool| -> f64 {
@@ -178,7 +182,15 @@ pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox) -> Fea
         ("score", amount(found.score)),
         ("longest_flap", of_across.fold(0.0, f64::max).min(MOST_ACROSS)),
         ("flaps_unlike", if lengths.len() > 1 { ratio.ln() } else { 0.0 }),
+        ("side_absent", side_absent(found, judgement)),
     ]
+}
+
+/// How probably the side that the rays bear out least is not there: a box has four.
+fn side_absent(found: &FoundBox, judgement: Option<&Judgement>) -> f64 {
+    let is_untold = |role: &Role| matches!(role, Role::Side(_)) && !is_told(found, *role, judgement);
+    let untold = found.evidence.iter().filter(|(role, _)| is_untold(role));
+    untold.map(|(_, evidence)| PartState::unseen(&evidence.looked()).absent).fold(0.0, f64::max)
 }
 
 /// Of one panel: `readings` are those it was given.
@@ -267,4 +279,40 @@ fn off_lid(body: &FittedBody, role: Role) -> f64 {
     let Role::Tuck(k) = role else { return 0.0 };
     let lid_m = lid_length_m(body, k).max(0.01);
     ((body.get(layout::flap(k) + layout::FLAP_LENGTH) - lid_m).abs() / lid_m).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, Isometry3};
+
+    use super::super::labels::{Labels, Present};
+    use super::*;
+    use crate::fit::{Parameters, Solution};
+
+    #[test]
+    fn a_side_that_the_camera_looked_through_is_absent_and_one_that_is_hidden_or_seen_is_not() {
+        let looked = |met: f64, through: f64, hidden: f64| Evidence { met, through, hidden, ..Evidence::default() };
+        let mut cases = 0;
+        for (readings, evidence, is_absent) in [
+            (0, looked(0.0, 900.0, 0.0), true),
+            (0, looked(60.0, 900.0, 0.0), true),
+            (0, looked(0.0, 0.0, 900.0), false),
+            (900, looked(900.0, 900.0, 0.0), false),
+        ] {
+            let body = FittedBody { input_from_object: Isometry3::identity(), numbers: Parameters::zeros() };
+            let present = Present { flaps: [false; 4], tucks: [false; 4] };
+            let parts = vec![(Role::Side(0), vec![0; 900]), (Role::Side(1), vec![0; readings])];
+            let evidence = vec![(Role::Side(0), looked(900.0, 0.0, 0.0)), (Role::Side(1), evidence)];
+            let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
+            let found = FoundBox::unjudged(solution, present, Labels { parts, stride: 1 }, evidence, 1800.0);
+            assert_eq!(
+                side_absent(&found, None) > 0.9,
+                is_absent,
+                "{readings} {evidence:?}",
+                evidence = found.evidence
+            );
+            cases += 1;
+        }
+        assert_eq!(cases, 4);
+    }
 }

@@ -59,7 +59,7 @@ pub fn find(
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
     clock.lap("flap_scans");
     let weighed = |one: FoundBox| {
-        let features = features::of_box(sight, assignments, &one);
+        let features = features::of_box(sight, assignments, &one, judgement);
         let probability = judgement.map_or(1.0, |judgement| judgement.box_probability(&features));
         FoundBox { features, probability, size: best_match(&one.solution, sizes), ..one }
     };

@@ -115,13 +115,13 @@ impl Finishing<'_> {
         sound(&solution.body)?;
         let found = if size.is_some() { weigh(sight, solution, found.present, 1) } else { found };
         let mut out = FoundBox { size, of_fewer, rivals, ..found };
-        out.features = features::of_box(sight, self.assignments, &out);
         let of = |(role, evidence): &(Role, Evidence)| {
             let points = out.labels.of(*role);
             (!points.is_empty())
                 .then(|| (*role, features::of_part(sight, &self.assignments.owners, &out, *role, points, evidence)))
         };
         out.part_features = out.evidence.iter().filter_map(of).collect();
+        out.features = features::of_box(sight, self.assignments, &out, self.judgement);
         Ok(out)
     }
 }

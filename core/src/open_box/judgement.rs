@@ -25,15 +25,19 @@ struct Odds {
     trees: Vec<Tree>,
     /// The least probability of what is told.
     told_from: f64,
-    /// Of boxes smaller than nearly all that these odds were learnt from.
+    /// Where more is asked.
     #[serde(default)]
-    small: Option<Small>,
+    doubts: Vec<Doubt>,
 }
 
-/// From which probability on boxes are told whose shorter edge is less.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-struct Small {
-    edge_m: f64,
+/// From which probability on boxes are told of which a feature is less, or more, than a bound.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct Doubt {
+    feature: String,
+    #[serde(default)]
+    below: Option<f64>,
+    #[serde(default)]
+    above: Option<f64>,
     told_from: f64,
 }
 
@@ -75,8 +79,13 @@ impl Judgement {
     /// The least probability of a box with these features that is told.
     pub fn box_told_from(&self, features: &Features) -> f64 {
         let odds = self.of_box_that_is(features);
-        let is_small = |small: &Small| named(features, "shorter_edge") < small.edge_m.ln();
-        odds.small.filter(is_small).map_or(odds.told_from, |small| small.told_from)
+        let doubts = odds.doubts.iter().filter(|doubt| doubt.holds(features));
+        doubts.map(|doubt| doubt.told_from).fold(odds.told_from, f64::max)
+    }
+
+    /// The same where nothing speaks for doubt.
+    pub fn box_told_from_at_best(&self, features: &Features) -> f64 {
+        self.of_box_that_is(features).told_from
     }
 
     fn of_box_that_is(&self, features: &Features) -> &Odds {
@@ -105,13 +114,12 @@ impl Odds {
         let named = self.weights.keys().map(String::as_str).chain(self.trees.iter().flat_map(Tree::features));
         let unknown = named.into_iter().find(|name| !known.contains(name));
         let is_share = |bound: &f64| (0.0..=1.0).contains(bound);
-        let bounds = [Some(self.told_from), self.small.map(|small| small.told_from)];
-        let no_edge = self.small.filter(|small| !(small.edge_m > 0.0 && small.edge_m.is_finite()));
-        let no_share = bounds.into_iter().flatten().find(|bound| !is_share(bound));
+        let mut bounds = std::iter::once(self.told_from).chain(self.doubts.iter().map(|doubt| doubt.told_from));
+        let no_share = bounds.find(|bound| !is_share(bound));
         missing
             .map(|name| format!("has no weight of {name}"))
             .or_else(|| unknown.map(|name| format!("{name} is not known")))
-            .or_else(|| no_edge.map(|small| format!("small.edge_m: {} is no length", small.edge_m)))
+            .or_else(|| self.doubts.iter().find_map(|doubt| doubt.wrong(known)))
             .or_else(|| no_share.map(|bound| format!("told_from: {bound} is no probability")))
     }
 
@@ -121,7 +129,55 @@ impl Odds {
     }
 }
 
+impl Doubt {
+    fn holds(&self, features: &Features) -> bool {
+        let value = named(features, &self.feature);
+        self.below.is_some_and(|bound| value < bound) || self.above.is_some_and(|bound| value > bound)
+    }
+
+    /// What is wrong with it where the features have these names.
+    fn wrong(&self, known: &[&str]) -> Option<String> {
+        if !known.contains(&self.feature.as_str()) {
+            return Some(format!("doubts: {} is not known", self.feature));
+        }
+        let is_bounded =
+            self.below.or(self.above).is_some_and(f64::is_finite) && self.below.is_some() != self.above.is_some();
+        (!is_bounded).then(|| format!("doubts: {} has not one of the bounds below and above", self.feature))
+    }
+}
+
 /// Of log odds.
 pub fn probability(log_odds: f64) -> f64 {
     1.0 / (1.0 + (-log_odds).exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Odds without trees whose weights are all nothing.
+    fn odds(known: &[&str], doubts: &str) -> String {
+        let weights: Vec<String> = known.iter().map(|name| format!("\"{name}\": 0.0")).collect();
+        format!(r#"{{"weights": {{{}}}, "trees": [], "told_from": 0.3, "doubts": [{doubts}]}}"#, weights.join(", "))
+    }
+
+    #[test]
+    fn more_is_asked_of_a_box_without_an_inside_and_of_one_that_lacks_a_side() {
+        let doubts = r#"{"feature": "on_inner_faces", "below": 0.2, "told_from": 0.7},
+            {"feature": "side_absent", "above": 0.9, "told_from": 0.8}"#;
+        let (standing, lying) = (odds(&BOX_FEATURES, doubts), odds(&BOX_FEATURES, ""));
+        let text = format!(r#"{{"box": {standing}, "lying": {lying}, "part": {}}}"#, odds(&PART_FEATURES, ""));
+        let judgement = Judgement::from_json(&text).unwrap();
+        for (inner, absent, lies, told_from) in [
+            (1.0, 0.5, 0.0, 0.3),
+            (0.1, 0.5, 0.0, 0.7),
+            (1.0, 0.95, 0.0, 0.8),
+            (0.1, 0.95, 0.0, 0.8),
+            (0.2, 0.9, 0.0, 0.3),
+            (0.1, 0.95, 1.0, 0.3),
+        ] {
+            let features = vec![("on_inner_faces", inner), ("side_absent", absent), ("lies", lies)];
+            assert_eq!(judgement.box_told_from(&features), told_from, "{features:?}");
+        }
+    }
 }

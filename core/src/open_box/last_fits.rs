@@ -90,12 +90,16 @@ struct Done {
 
 /// Whether no last fit would make it a box that is told.
 fn is_hopeless(one: &FoundBox, judgement: Option<&Judgement>) -> bool {
-    one.probability < HOPELESS * least_told(one, judgement)
+    one.probability < HOPELESS * least_at_best(one, judgement)
 }
 
-/// Whether it would be told if its last fit changed nothing.
+/// Whether it would be told if its last fit changed nothing but what speaks for doubt: that needs all of its readings.
 fn is_probable(one: &FoundBox, judgement: Option<&Judgement>) -> bool {
-    one.probability >= least_told(one, judgement)
+    one.probability >= least_at_best(one, judgement)
+}
+
+fn least_at_best(one: &FoundBox, judgement: Option<&Judgement>) -> f64 {
+    judgement.map_or(0.0, |judgement| judgement.box_told_from_at_best(&one.features))
 }
 
 /// The probability of a finished box.

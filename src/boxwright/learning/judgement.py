@@ -32,6 +32,14 @@ SMALL_TOLD_FROM = 0.8
 """The same of boxes that are smaller than nearly all right ones that were learnt from: there the odds are a guess."""
 SMALL_SHARE = 0.01
 """So many of the right ones are smaller."""
+DOUBTFUL_TOLD_FROM = 0.7
+"""The same of boxes of which no inside is seen, as of stacked blocks, or a side is looked through, as of folders."""
+INSIDE_READINGS = 100.0
+"""Fewer on inner faces are no inside: as much is asked of what may be closed (core/src/open_box/closed.rs)."""
+SIDE_ABSENT = 0.9
+"""So probable is it that a side is not there where more is asked of the box."""
+UNIT_READINGS = 400.0
+"""Features tell readings in this unit, by the logarithm of one more."""
 RIGHT_SHARE = 0.25
 """A box is right when its right less its wrong panels are at least this share of those in the cloud."""
 
@@ -59,11 +67,13 @@ class JudgementReport(msgspec.Struct, frozen=True, kw_only=True):
     wrong_parts: int
 
 
-class Small(msgspec.Struct, frozen=True, kw_only=True):
-    """From which probability on boxes are told whose shorter edge is less, metres."""
+class Doubt(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """From which probability on boxes are told of which a feature is less, or more, than a bound."""
 
-    edge_m: float
+    feature: str
     told_from: float
+    below: float | None = None
+    above: float | None = None
 
 
 class Odds(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -73,18 +83,19 @@ class Odds(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     trees: list[Tree]
     told_from: float
     """Told is what has this probability or more."""
-    small: Small | None = None
+    doubts: tuple[Doubt, ...] = ()
+    """Where more is asked."""
 
 
 class LearnedJudgement(msgspec.Struct, frozen=True, kw_only=True):
-    """How a box and a part are judged (`boxwright.judgement`, version 3); boxes on a side by odds of their own."""
+    """How a box and a part are judged (`boxwright.judgement`, version 4); boxes on a side by odds of their own."""
 
     box: Odds
     lying: Odds
     part: Odds
     training: JudgementReport
     format: Literal["boxwright.judgement"] = "boxwright.judgement"
-    version: Literal[3] = 3
+    version: Literal[4] = 4
 
     def save(self, path: str | Path) -> None:
         """Writes it as JSON, each tree on a line."""
@@ -132,7 +143,7 @@ def learn_judgement(
     boxes = [is_right for frame in examples for _, is_right in frame.boxes]
     parts = [is_right for frame in examples for _, is_right in frame.parts]
     return LearnedJudgement(
-        box=msgspec.structs.replace(box, small=_small(examples)),
+        box=msgspec.structs.replace(box, doubts=_doubts(examples)),
         lying=of_lying,
         part=part,
         training=JudgementReport(
@@ -146,10 +157,17 @@ def learn_judgement(
     )
 
 
-def _small(examples: Sequence[Examples]) -> Small:
-    """Learnt from the right ones, by the logarithms of their shorter edges."""
+def _doubts(examples: Sequence[Examples]) -> tuple[Doubt, ...]:
+    """How small is too small is learnt from the right ones, by the logarithms of their shorter edges."""
     edges = [features["shorter_edge"] for frame in examples for features, is_right in frame.boxes if is_right]
-    return Small(edge_m=round(float(np.exp(np.quantile(edges, SMALL_SHARE))), 3), told_from=SMALL_TOLD_FROM)
+    inside = round(float(np.log1p(INSIDE_READINGS / UNIT_READINGS)), 3)
+    return (
+        Doubt(
+            feature="shorter_edge", below=round(float(np.quantile(edges, SMALL_SHARE)), 3), told_from=SMALL_TOLD_FROM
+        ),
+        Doubt(feature="on_inner_faces", below=inside, told_from=DOUBTFUL_TOLD_FROM),
+        Doubt(feature="side_absent", above=SIDE_ABSENT, told_from=DOUBTFUL_TOLD_FROM),
+    )
 
 
 def _fitted(

@@ -58,7 +58,8 @@ impl Views<'_> {
     /// The mean over the views, each counted by its readings on the box.
     fn box_features(&self, seen: &[FoundBox]) -> Features {
         let each = seen.iter().zip(self.sights).zip(&self.assignments);
-        let each = each.map(|((one, sight), its)| (readings_on(one), features::of_box(sight, its, one)));
+        let each =
+            each.map(|((one, sight), its)| (readings_on(one), features::of_box(sight, its, one, self.judgement)));
         let each: Vec<(f64, Features)> = each.collect();
         let total: f64 = each.iter().map(|(readings, _)| readings).sum::<f64>().max(1.0);
         let mut sums: BTreeMap<&str, f64> = BTreeMap::new();
