@@ -92,7 +92,8 @@ impl<G: Guard> Held<'_, G> {
         solutions.find_map(|solution| self.with_ends(self.turned(&solution.positions, lean_in)?, lean_in))
     }
 
-    /// Leaning, down as far as the arm can follow, and flat again: first in wide steps, then in close ones.
+    /// Leaning, down as far as the arm can follow, and flat again on the flap as it springs back: first in wide steps, then in close
+    /// ones.
     fn turned(&self, start: &JointPositions, lean_in: f64) -> Option<PushMotion> {
         let settings = self.fork.settings;
         let wide = self.places(settings.fork.wanted_rad, settings.layer_rad, (lean_in, false));
@@ -129,8 +130,16 @@ impl<G: Guard> Held<'_, G> {
         let leans = |from: f64| layers_between(from, 1.0, step_rad / self.astride.lean_rad);
         let leaning = leans(lean_in).into_iter().map(|lean| (start_rad, lean));
         let turning = layers_between(start_rad, to_rad, step_rad).into_iter().skip(1).map(|angle_rad| (angle_rad, 1.0));
-        let back = leans(0.0).into_iter().rev().skip(1).filter(|_| to_end).map(|lean| (to_rad, lean));
+        // Fingers that stay behind where the flap springs back to are pressed on, and drag the box with them as they leave.
+        let sprung_rad = self.rest_rad(to_rad) - to_rad;
+        let back = leans(0.0).into_iter().rev().skip(1).filter(|_| to_end);
+        let back = back.map(|lean| (to_rad + sprung_rad * (1.0 - lean), lean));
         leaning.chain(turning).chain(back).collect()
+    }
+
+    /// Where a flap rests that is let go at an angle: it follows the fingers' slack, then springs back.
+    fn rest_rad(&self, held_rad: f64) -> f64 {
+        self.fork.fold.rest_rad(held_rad + self.astride.slack_rad)
     }
 
     /// Postures place by place, as far as they are clear and the arm need not jump.
@@ -151,12 +160,11 @@ impl<G: Guard> Held<'_, G> {
         self.guard.conflict(positions, &self.at(angle_rad), self.clearance_m()).is_none()
     }
 
-    /// With the ways to it and away from it; the flap follows the fingers' slack, then springs back.
+    /// With the ways to it and away from it, and where the flap rests then.
     fn with_ends(&self, mut motion: PushMotion, lean_in: f64) -> Option<(PushMotion, f64)> {
         let fork = self.fork;
         let lines = Lines { arm: fork.arm, guard: &self.guard, settings: fork.settings };
-        let (start_rad, held_rad) = (motion.hinge_rad[0], motion.hinge_rad[motion.hinge_rad.len() - 1]);
-        let rest_rad = fork.fold.rest_rad(held_rad + self.astride.slack_rad);
+        let (start_rad, rest_rad) = (motion.hinge_rad[0], motion.hinge_rad[motion.hinge_rad.len() - 1]);
         let after = fork.before.left(fork.number, rest_rad);
         let frame = |angle_rad: f64| fork.flap.frame(angle_rad);
         let grip = |angle_rad: f64, lean: f64| Grip {
@@ -170,7 +178,7 @@ impl<G: Guard> Held<'_, G> {
             .draw_off(&first, &grip(start_rad, lean_in), &frame(start_rad), &self.at(start_rad), fork.before)
             .ok()?;
         approach.reverse();
-        let retreat = lines.draw_off(&last, &grip(held_rad, 0.0), &frame(held_rad), &self.at(held_rad), &after).ok()?;
+        let retreat = lines.draw_off(&last, &grip(rest_rad, 0.0), &frame(rest_rad), &self.at(rest_rad), &after).ok()?;
         motion = PushMotion { approach, retreat, ..motion };
         if !comes_and_goes(fork.arm, &self.guard, fork.settings, &motion, (fork.before, &after)) {
             fork.caught.set(fork.caught.get() + 1);
@@ -221,8 +229,8 @@ mod tests {
         }
     }
 
-    /// Was a way found, and after how many motions was the arm caught?
-    fn planned(arm: &Arm, kept: Option<JointPositions>) -> (bool, usize) {
+    /// The way that was found and where the flap rests after it, the flap, and after how many motions the arm was caught.
+    fn planned(arm: &Arm, kept: Option<JointPositions>) -> (Option<(PushMotion, f64)>, Flap, usize) {
         let flap = Flap {
             name: "flap_0".into(),
             side: "side_0".into(),
@@ -241,19 +249,43 @@ mod tests {
             flap: &flap,
             number: 0,
             thickness_m: 0.003,
-            fold: Fold { crease_n_m: 0.1, weight_n_m: 0.0, return_rad: 0.1 },
+            fold: Fold { crease_n_m: 0.1, weight_n_m: 0.0, return_rad: RETURN_RAD },
             stand: None,
             before: &Moment::resting(&[flap.position_rad]),
-            until_rad: 62f64.to_radians(),
+            until_rad: UNTIL_RAD,
             caught: Cell::new(0),
         };
-        (fork.plan().is_some(), fork.caught.get())
+        let (found, caught) = (fork.plan(), fork.caught.get());
+        (found, flap, caught)
+    }
+
+    const RETURN_RAD: f64 = 0.1;
+    const UNTIL_RAD: f64 = 1.08;
+
+    #[test]
+    fn fingers_go_back_with_the_flap_and_leave_it_flat_where_it_rests() {
+        let arm = Arm::from_toml(VIPER).unwrap();
+        let (found, flap, _) = planned(&arm, None);
+        let (motion, rest_rad) = found.unwrap();
+        let least_rad = motion.hinge_rad.iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(least_rad <= UNTIL_RAD, "{least_rad}");
+        assert!((rest_rad - least_rad - RETURN_RAD).abs() < 0.03, "{rest_rad} after {least_rad}");
+        let (last, end_rad) = (motion.push[motion.push.len() - 1], motion.hinge_rad[motion.hinge_rad.len() - 1]);
+        assert!((end_rad - rest_rad).abs() < 1e-9, "{end_rad}");
+        let base_from_tool = arm.forward(&last);
+        let pointing = Vec3::from(base_from_tool.rotation.column(2));
+        let off_board = pointing.dot(&flap.frame(rest_rad).outward);
+        assert!(off_board.abs() < 1e-6, "{off_board}");
     }
 
     #[test]
     fn an_arm_that_is_caught_again_and_again_is_not_tried_at_every_place() {
         let arm = Arm::from_toml(VIPER).unwrap();
-        assert_eq!(planned(&arm, None), (true, 0));
-        assert_eq!(planned(&arm, Some(arm.ready)), (false, MOST_CAUGHT_IN_ALL + 1));
+        let asked = [(None, true, 0), (Some(arm.ready), false, MOST_CAUGHT_IN_ALL + 1)];
+        let counted = asked.map(|(kept, is_found, times)| {
+            let (found, _, caught) = planned(&arm, kept);
+            assert_eq!((found.is_some(), caught), (is_found, times));
+        });
+        assert_eq!(counted.len(), 2);
     }
 }
