@@ -141,12 +141,12 @@ weights-fitted:
 	$(BIN)/python -m benchmarks.coverage $(SETS)/judge --scales
 
 evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 120, 60 upright, 60 half shut, 60 on a side, 60 closed, and 200 and 60 without an open box)
-	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 8701
-	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 8702 --category none
-	$(BIN)/boxwright synth $(SETS)/boxes_upright --count 60 --seed 8703 --category upright --boxes 1
-	$(BIN)/boxwright synth $(SETS)/boxes_part_shut --count 60 --seed 8704 --category part_shut --boxes 1
-	$(BIN)/boxwright synth $(SETS)/boxes_lying --count 60 --seed 8705 --category lying --boxes 1
-	$(BIN)/boxwright synth $(SETS)/boxes_closed --count 60 --seed 8706 --category closed
+	$(BIN)/boxwright synth $(SETS)/boxes --count 240 --seed 8901
+	$(BIN)/boxwright synth $(SETS)/no_boxes --count 200 --seed 8902 --category none
+	$(BIN)/boxwright synth $(SETS)/boxes_upright --count 60 --seed 8903 --category upright --boxes 1
+	$(BIN)/boxwright synth $(SETS)/boxes_part_shut --count 60 --seed 8904 --category part_shut --boxes 1
+	$(BIN)/boxwright synth $(SETS)/boxes_lying --count 60 --seed 8905 --category lying --boxes 1
+	$(BIN)/boxwright synth $(SETS)/boxes_closed --count 60 --seed 8906 --category closed
 	$(BIN)/boxwright evaluate $(SETS)/boxes_closed --template closed_carton -o out/boxes_closed.json
 	for set in boxes_upright boxes_part_shut boxes_lying; do $(BIN)/boxwright evaluate $(SETS)/$$set -o out/$$set.json; done
 	for method in fitted exact paper; do \

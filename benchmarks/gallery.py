@@ -31,6 +31,8 @@ from boxwright.io.clouds import read_cloud
 from boxwright.pipeline import infer
 
 WORST, COLUMNS = 10, 4
+LEAST_PANELS = 3
+"""Fewer are no box (docs/maths.md, "Whether it is one")."""
 MISSED = "#d62728"
 Box = dict[str, Any]
 
@@ -56,18 +58,29 @@ def table(name: str, boxes: list[tuple[int, Box]], of: Callable[[int, Box], str]
     """Accuracy of boxes by what `of` says of them, as Markdown."""
     lines = [f"| {name} | boxes | missed | flap % | full % |", "|---|---:|---:|---:|---:|"]
     for value in sorted({of(count, box) for count, box in boxes}):
-        some = [box for count, box in boxes if of(count, box) == value]
-        flaps = [flap_share(box) for box in some if box["flaps_in_cloud"]]
-        flap = f"{100 * np.mean(flaps):.1f}" if flaps else "-"
-        missed = sum(box["object"] is None for box in some)
-        lines.append(f"| {value} | {len(some)} | {missed} | {flap} | {100 * np.mean([*map(full_share, some)]):.1f} |")
+        lines.append(row(value, [box for count, box in boxes if of(count, box) == value]))
     return [*lines, ""]
+
+
+def row(value: str, some: list[Box]) -> str:
+    """Accuracy of some boxes, as a line of a table."""
+    flaps = [flap_share(box) for box in some if box["flaps_in_cloud"]]
+    flap = f"{100 * np.mean(flaps):.1f}" if flaps else "-"
+    missed = sum(box["object"] is None for box in some)
+    return f"| {value} | {len(some)} | {missed} | {flap} | {100 * np.mean([*map(full_share, some)]):.1f} |"
+
+
+def by_panels(boxes: list[tuple[int, Box]]) -> list[str]:
+    """By how many panels are in the cloud, and of all that show enough of them to be told."""
+    *lines, end = table("panels of the box in the cloud", boxes, lambda _, box: panels_seen(box))
+    told = [box for _, box in boxes if box["panels_in_cloud"] >= LEAST_PANELS]
+    return [*lines, row(f"{LEAST_PANELS} and more, which may be told", told), end]
 
 
 def panels_seen(box: Box) -> str:
     """How many panels of it are in the cloud, in words that sort."""
     count = box["panels_in_cloud"]
-    return "1 or 2" if count < 3 else "3 to 5" if count < 6 else "6 and more"
+    return "1 or 2" if count < LEAST_PANELS else "3 to 5" if count < 6 else "6 and more"
 
 
 def causes(boxes: list[tuple[int, Box]]) -> list[str]:
@@ -124,7 +137,7 @@ def main() -> None:
         "",
         f"{len(boxes)} boxes, method {evaluation['method']}.",
         "",
-        *table("panels of the box in the cloud", boxes, lambda _, box: panels_seen(box)),
+        *by_panels(boxes),
         *table("boxes in the frame", boxes, lambda count, _: str(count)),
         *causes(boxes),
         "![The best frame, the middle one and the ten worst](gallery.png)",
