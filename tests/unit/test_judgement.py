@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 
+import msgspec
 import numpy as np
 import pytest
 from scipy.optimize import minimize
 
 from boxwright import _core
-from boxwright.learning.judgement import RIDGE, fit_logistic
+from boxwright.learning.judgement import RIDGE, Examples, LearnedJudgement, doubts_of, fit_logistic
 from boxwright.models import load_judgement, load_object_model
 
 
@@ -69,3 +70,17 @@ def test_a_judgement_that_does_not_fit_is_named() -> None:
         change(broken)
         with pytest.raises(ValueError, match=f"judgement.*{expected}"):
             _core.infer(points, 64, 48, [model], viewpoint=(0.0, 0.0, 0.0), fitted=True, judgement=json.dumps(broken))
+
+
+def test_the_shipped_judgement_is_what_the_learner_writes() -> None:
+    """Doubted are small boxes, those without an inside and those that lack a side; from where, the rules say."""
+    shipped = msgspec.json.decode(load_judgement(), type=LearnedJudgement)
+    edges = [float(edge) for edge in np.linspace(-3.0, 0.0, 101)]
+    told = {"on_inner_faces": 1.0, "side_absent": 0.0}
+    right = Examples(boxes=tuple(({"shorter_edge": edge} | told, True) for edge in edges), parts=())
+    small, *others = doubts_of([right])
+    assert small.feature == shipped.box.doubts[0].feature == "shorter_edge"
+    assert small.below == pytest.approx(-2.97)
+    assert tuple(others) == shipped.box.doubts[1:]
+    assert not shipped.lying.doubts
+    assert not shipped.part.doubts

@@ -143,7 +143,7 @@ def learn_judgement(
     boxes = [is_right for frame in examples for _, is_right in frame.boxes]
     parts = [is_right for frame in examples for _, is_right in frame.parts]
     return LearnedJudgement(
-        box=msgspec.structs.replace(box, doubts=_doubts(examples)),
+        box=msgspec.structs.replace(box, doubts=doubts_of(examples)),
         lying=of_lying,
         part=part,
         training=JudgementReport(
@@ -157,8 +157,8 @@ def learn_judgement(
     )
 
 
-def _doubts(examples: Sequence[Examples]) -> tuple[Doubt, ...]:
-    """How small is too small is learnt from the right ones, by the logarithms of their shorter edges."""
+def doubts_of(examples: Sequence[Examples]) -> tuple[Doubt, ...]:
+    """Where more is asked; how small is too small is learnt from the logarithms of the right ones' shorter edges."""
     edges = [features["shorter_edge"] for frame in examples for features, is_right in frame.boxes if is_right]
     inside = round(float(np.log1p(INSIDE_READINGS / UNIT_READINGS)), 3)
     return (
