@@ -30,23 +30,29 @@ pub fn fit_group(
     settings: &FitSettings,
 ) -> Result<FoundBox, NotFitted> {
     let coarse = competing(settings);
-    let mut best = Err(NotFitted::NoBox);
-    let mut most = f64::NEG_INFINITY;
+    let mut best: Result<FoundBox, NotFitted> = Err(NotFitted::NoBox);
     for start in group {
-        let grown = grow_jointly(views.sights, start, group, &coarse);
-        // Of bodies that explain the same readings the likelier one is told.
-        let weighed = |(solution, present): &(Solution, Present)| {
-            start.probability * views.score(solution, *present, COARSE_STRIDE)
+        let finished = grow_jointly(views.sights, start, group, &coarse)
+            .and_then(|(solution, present)| finish(views, solution, present, group, settings))
+            .and_then(|(solution, present)| gathered(views, solution, present, sizes, settings));
+        best = match (best, finished) {
+            // Of bodies that explain the same readings the likelier one is told.
+            (Ok(best), Ok(one)) if one.rank(one.probability) > best.rank(best.probability) => Ok(one),
+            (Err(_), finished) => finished,
+            (best, _) => best,
         };
-        let score = grown.as_ref().map(weighed);
-        match score {
-            Ok(score) if score > most => (best, most) = (grown, score),
-            Err(_) if best.is_err() => best = grown,
-            _ => {}
-        }
     }
-    let (solution, present) = best?;
-    let (solution, present) = finish(views, solution, present, group, settings)?;
+    best
+}
+
+/// It takes the size that it matches, if any.
+fn gathered(
+    views: &Views,
+    solution: Solution,
+    present: Present,
+    sizes: &[KnownSize],
+    settings: &FitSettings,
+) -> Result<FoundBox, NotFitted> {
     let (solution, size) = with_known_size(solution, sizes, settings.seen_scale.dimension);
     sound(&solution.body)?;
     Ok(views.gather(&solution, present, size))
