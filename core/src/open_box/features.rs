@@ -4,13 +4,11 @@ use super::assignments::Assignments;
 use super::ends::goes_on;
 use super::evidence::{Evidence, Sheet};
 use super::grow::{FoundBox, FINE_M};
-use super::judgement::Judgement;
 use super::lean::lean;
 use super::owners::Owners;
 use super::rims;
 use super::settle::lowest_m;
 use super::sight::Sight;
-use super::told::is_told;
 use super::upright::lies;
 use crate::fit::{layout, lid_length_m, FittedBody, Role};
 use crate::free_space::PartState;
@@ -102,8 +100,8 @@ fn share(part: f64, rest: f64) -> f64 {
     part / (part + rest + 1.0)
 }
 
-/// Of the whole box; which of its panels are told follows from their features, where it has these.
-pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox, judgement: Option<&Judgement>) -> Features {
+/// Of the whole box, of which panels are told or not.
+pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox, is_told: &dyn Fn(Role) -> bool) -> Features {
     let body = &found.solution.body;
     let opening = Sheet::of_opening(body, &sight.eye).look(sight, FINE_M);
     let readings = |wanted: &dyn Fn(Role) -> bool| -> f64 {
@@ -182,13 +180,13 @@ pub fn of_box(sight: &Sight, assignments: &Assignments, found: &FoundBox, judgem
         ("score", amount(found.score)),
         ("longest_flap", of_across.fold(0.0, f64::max).min(MOST_ACROSS)),
         ("flaps_unlike", if lengths.len() > 1 { ratio.ln() } else { 0.0 }),
-        ("side_absent", side_absent(found, judgement)),
+        ("side_absent", side_absent(found, is_told)),
     ]
 }
 
 /// How probably the side that the rays bear out least is not there: a box has four.
-fn side_absent(found: &FoundBox, judgement: Option<&Judgement>) -> f64 {
-    let is_untold = |role: &Role| matches!(role, Role::Side(_)) && !is_told(found, *role, judgement);
+fn side_absent(found: &FoundBox, is_told: &dyn Fn(Role) -> bool) -> f64 {
+    let is_untold = |role: &Role| matches!(role, Role::Side(_)) && !is_told(*role);
     let untold = found.evidence.iter().filter(|(role, _)| is_untold(role));
     untold.map(|(_, evidence)| PartState::unseen(&evidence.looked()).absent).fold(0.0, f64::max)
 }
@@ -305,12 +303,8 @@ mod tests {
             let evidence = vec![(Role::Side(0), looked(900.0, 0.0, 0.0)), (Role::Side(1), evidence)];
             let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
             let found = FoundBox::unjudged(solution, present, Labels { parts, stride: 1 }, evidence, 1800.0);
-            assert_eq!(
-                side_absent(&found, None) > 0.9,
-                is_absent,
-                "{readings} {evidence:?}",
-                evidence = found.evidence
-            );
+            let is_told = |role: Role| !found.labels.of(role).is_empty();
+            assert_eq!(side_absent(&found, &is_told) > 0.9, is_absent, "{readings} {:?}", found.evidence);
             cases += 1;
         }
         assert_eq!(cases, 4);

@@ -13,6 +13,7 @@ use super::refused::Refused;
 use super::shells::{alike, lies, outer_m, overlap, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
+use super::told::is_told;
 use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, FittedBody, KnownSize};
 use crate::perception::clock::Clock;
 use crate::perception::Scene;
@@ -59,7 +60,7 @@ pub fn find(
     shells.sort_by(|a, b| b.score.total_cmp(&a.score));
     clock.lap("flap_scans");
     let weighed = |one: FoundBox| {
-        let features = features::of_box(sight, assignments, &one, judgement);
+        let features = features::of_box(sight, assignments, &one, &|role| is_told(&one, role, judgement));
         let probability = judgement.map_or(1.0, |judgement| judgement.box_probability(&features));
         FoundBox { features, probability, size: best_match(&one.solution, sizes), ..one }
     };

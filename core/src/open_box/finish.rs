@@ -20,6 +20,7 @@ use super::refit::refit;
 use super::sight::Sight;
 use super::slots::height_by_slots;
 use super::sure::drop_unsure;
+use super::told::is_told;
 use crate::fit::{
     canonical_turn, layout, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role, Solution,
 };
@@ -121,7 +122,7 @@ impl Finishing<'_> {
                 .then(|| (*role, features::of_part(sight, &self.assignments.owners, &out, *role, points, evidence)))
         };
         out.part_features = out.evidence.iter().filter_map(of).collect();
-        out.features = features::of_box(sight, self.assignments, &out, self.judgement);
+        out.features = features::of_box(sight, self.assignments, &out, &|role| is_told(&out, role, self.judgement));
         Ok(out)
     }
 }

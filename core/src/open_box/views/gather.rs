@@ -9,6 +9,7 @@ use super::super::grow::{weigh, FoundBox};
 use super::super::judgement::{probability, Judgement};
 use super::super::labels::{roles, Labels, Present};
 use super::super::sight::Sight;
+use super::super::told::is_told;
 use crate::fit::{Role, SizeMatch, Solution};
 
 /// All views, in one level frame.
@@ -58,8 +59,9 @@ impl Views<'_> {
     /// The mean over the views, each counted by its readings on the box.
     fn box_features(&self, seen: &[FoundBox]) -> Features {
         let each = seen.iter().zip(self.sights).zip(&self.assignments);
-        let each =
-            each.map(|((one, sight), its)| (readings_on(one), features::of_box(sight, its, one, self.judgement)));
+        let of =
+            |one: &FoundBox, sight, its| features::of_box(sight, its, one, &|role| is_told(one, role, self.judgement));
+        let each = each.map(|((one, sight), its)| (readings_on(one), of(one, sight, its)));
         let each: Vec<(f64, Features)> = each.collect();
         let total: f64 = each.iter().map(|(readings, _)| readings).sum::<f64>().max(1.0);
         let mut sums: BTreeMap<&str, f64> = BTreeMap::new();
