@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 
 use super::flap::Flap;
+use super::load::DRAG_SHARE;
 use super::settings::ForkSettings;
 use crate::arm::{Arm, Shape};
 use crate::collision::{signed_distance_m, OrientedBox, Solid};
@@ -29,6 +30,8 @@ pub struct Astride {
     /// The force along the board, towards the hinge, for each unit of the couple (1/m): the outer finger presses on the board's edge
     /// along its own side's normal, which leans.
     pub aside_per_m: f64,
+    /// What friction under both fingers bears of that.
+    pub borne_per_m: f64,
 }
 
 /// All of them, the likeliest first.
@@ -45,7 +48,9 @@ pub fn all_astride(arm: &Arm, flap: &Flap, thickness_m: f64, settings: &ForkSett
     let yaws = settings.yaws_rad.iter();
     let shallow = yaws.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, &[settings.shallow], settings)).collect();
     let over_ends = over_ends(arm, flap, settings);
-    [deep(true), over_ends, deep(false), shallow].into_iter().flat_map(one_sided).collect()
+    let steep = settings.steep_yaws_rad.iter();
+    let steep = steep.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, &settings.depths, settings)).collect();
+    [deep(true), over_ends, deep(false), shallow, steep].into_iter().flat_map(one_sided).collect()
 }
 
 /// Over the free edge, the tool's axis turned in the board by `yaw_rad` from straight to the hinge.
@@ -68,7 +73,8 @@ fn over_edge(flap: &Flap, yaw_rad: f64, depths: &[f64], settings: &ForkSettings)
                 opening_m: 0.0,
                 slack_rad: 2.0 * settings.gap_m / depth_m,
                 twist: yaw_rad.tan(),
-                aside_per_m: lean_rad.tan() / depth_m,
+                aside_per_m: lean_rad.tan() / (depth_m * yaw_rad.cos().powi(2)),
+                borne_per_m: 2.0 * DRAG_SHARE / (depth_m * yaw_rad.cos()),
             }));
         }
     }
@@ -101,6 +107,7 @@ fn over_ends(arm: &Arm, flap: &Flap, settings: &ForkSettings) -> Vec<Astride> {
                     twist: 0.0,
                     // Both fingers press on the board's faces.
                     aside_per_m: 0.0,
+                    borne_per_m: 0.0,
                 }
             }));
         }
@@ -212,16 +219,22 @@ mod tests {
             for astride in all_astride(&arm, &flap, THICKNESS_M, &settings) {
                 let (flat, leaning) = (fingers(&arm, &flap, &astride, 0.0), fingers(&arm, &flap, &astride, 1.0));
                 for (before_m, gap_m) in flat.iter().zip(&leaning) {
-                    assert!(*before_m > *gap_m && *gap_m >= settings.gap_m - 1e-9, "{before_m} {gap_m}");
+                    assert!(*before_m > *gap_m && *gap_m >= settings.gap_m - ROUNDING_M, "{before_m} {gap_m}");
                 }
                 let least_m = leaning.iter().copied().fold(f64::INFINITY, f64::min);
                 let most_m = leaning.iter().copied().fold(0.0, f64::max);
-                assert!((least_m - settings.gap_m).abs() < 2e-6 && (most_m - settings.gap_m).abs() < 2e-6, "{least_m} {most_m}");
+                assert!(
+                    (least_m - settings.gap_m).abs() < 2e-6 && (most_m - settings.gap_m).abs() < 2e-6,
+                    "{least_m} {most_m}"
+                );
                 // Half way between hinge and free edge, or nearer to the edge.
                 assert!(astride.pivot.y > length_m / 2.0 && astride.pivot.y < length_m);
                 // Over the free edge the outer finger presses on the board's edge, over an end on its face.
                 let toward = astride.flat.column(2).y;
-                let expected = if toward < -0.5 { astride.lean_rad.tan() / (2.0 * astride.tip_m) } else { 0.0 };
+                let couple_m = 2.0 * astride.tip_m * -toward;
+                let expected = if toward < -0.5 { astride.lean_rad.tan() / -toward / couple_m } else { 0.0 };
+                let borne = if toward < -0.5 { 0.6 / couple_m } else { 0.0 };
+                assert!((astride.borne_per_m - borne).abs() < 1e-9, "{toward}: {}", astride.borne_per_m);
                 assert!((astride.aside_per_m - expected).abs() < 1e-9, "{toward}: {}", astride.aside_per_m);
                 aside += usize::from(expected > 0.0);
                 counted[k] += 1;

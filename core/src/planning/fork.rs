@@ -42,24 +42,27 @@ struct Held<'a, G: Guard> {
 }
 
 impl<G: Guard> Fork<'_, G> {
-    /// The first way that turns the flap down from where it stands to where a push can go on, and where it rests then (rad).
+    /// The first way that turns the flap down from where it stands to where a push can go on, and where it rests then (rad): rather one
+    /// that asks nothing of the friction under the fingers.
     pub fn plan(&self) -> Option<(PushMotion, f64)> {
         let all = all_astride(self.arm, self.flap, self.thickness_m, &self.settings.fork);
-        all.into_iter()
-            .filter(|astride| !self.moves_box(astride))
-            .take_while(|_| !self.is_caught())
-            .find_map(|astride| Held { fork: self, guard: self.guard.with_opening(astride.opening_m), astride }.plan())
+        let (slipping, holding): (Vec<Astride>, Vec<Astride>) =
+            all.into_iter().partition(|astride| self.moves_box(astride, astride.aside_per_m));
+        let borne = |astride: &Astride| (astride.aside_per_m - astride.borne_per_m).max(0.0);
+        let gripping = slipping.into_iter().filter(|astride| !self.moves_box(astride, borne(astride)));
+        let mut asked = holding.into_iter().chain(gripping).take_while(|_| !self.is_caught());
+        asked.find_map(|astride| Held { fork: self, guard: self.guard.with_opening(astride.opening_m), astride }.plan())
     }
 
     /// Do the fingers move the box, where the flap stands or where it is left: with their couple, and with what the outer one, where
     /// it leans, presses along the board?
-    fn moves_box(&self, astride: &Astride) -> bool {
+    fn moves_box(&self, astride: &Astride, aside_per_m: f64) -> bool {
         let Some(stand) = self.stand else { return false };
         let couple_n_m = self.fold.crease_n_m + self.fold.weight_n_m;
         [self.start_rad(), self.until_rad].iter().any(|&angle_rad| {
             let frame = self.flap.frame(angle_rad);
             let couple = (frame.away * astride.twist - frame.along) * couple_n_m;
-            let force_n = -frame.away * (couple_n_m * astride.aside_per_m);
+            let force_n = -frame.away * (couple_n_m * aside_per_m);
             let at = frame.at(astride.pivot.x, astride.pivot.y, astride.pivot.z);
             stand.strain_with_couple(&at, &force_n, &couple) > self.settings.most_strain
         })
@@ -231,6 +234,15 @@ mod tests {
 
     /// The way that was found and where the flap rests after it, the flap, and after how many motions the arm was caught.
     fn planned(arm: &Arm, kept: Option<JointPositions>) -> (Option<(PushMotion, f64)>, Flap, usize) {
+        planned_on(arm, kept, (0.08, 100.0), None)
+    }
+
+    fn planned_on(
+        arm: &Arm,
+        kept: Option<JointPositions>,
+        (length_m, at_degrees): (f64, f64),
+        stand: Option<&Stand>,
+    ) -> (Option<(PushMotion, f64)>, Flap, usize) {
         let flap = Flap {
             name: "flap_0".into(),
             side: "side_0".into(),
@@ -238,9 +250,9 @@ mod tests {
             hinge: Vec3::new(0.4, 0.1, 0.15),
             axis: -Vec3::y(),
             inward: Vec3::x(),
-            outline: [[0.0, 0.0], [0.2, 0.0], [0.2, 0.08], [0.0, 0.08]],
+            outline: [[0.0, 0.0], [0.2, 0.0], [0.2, length_m], [0.0, length_m]],
             tucks: Vec::new(),
-            position_rad: 100f64.to_radians(),
+            position_rad: at_degrees.to_radians(),
         };
         let fork = Fork {
             arm,
@@ -250,7 +262,7 @@ mod tests {
             number: 0,
             thickness_m: 0.003,
             fold: Fold { crease_n_m: 0.1, weight_n_m: 0.0, return_rad: RETURN_RAD },
-            stand: None,
+            stand,
             before: &Moment::resting(&[flap.position_rad]),
             until_rad: UNTIL_RAD,
             caught: Cell::new(0),
@@ -287,5 +299,19 @@ mod tests {
             assert_eq!((found.is_some(), caught), (is_found, times));
         });
         assert_eq!(counted.len(), 2);
+    }
+
+    #[test]
+    fn fingers_hold_a_light_box_by_their_friction_where_a_couple_does_not_tip_it() {
+        let arm = Arm::from_toml(VIPER).unwrap();
+        let base = [[0.4, -0.1], [0.6, -0.1], [0.6, 0.1], [0.4, 0.1]].map(|[x, y]| Vec3::new(x, y, 0.0));
+        // Too short for fingers over its ends. 0.1 N m tip 2 N half as much as they bear; with 18 mm between tip and edge 1.2 N are
+        // pressed along the board, which slide 2 N.
+        let asked = [(10.0, true), (2.0, true), (0.5, false)].map(|(weight_n, expected)| {
+            let stand = Stand::on(&base, Vec3::z(), weight_n, 0.4);
+            let (found, ..) = planned_on(&arm, None, (0.026, 150.0), Some(&stand));
+            assert_eq!(found.is_some(), expected, "{weight_n} N");
+        });
+        assert_eq!(asked.len(), 3);
     }
 }

@@ -129,7 +129,7 @@ impl Stand {
     }
 
     /// On a base whose corners are told going round; what every push of a search asks for is reckoned here once.
-    fn on(base: &[Vec3; 4], up: Vec3, weight_n: f64, friction: f64) -> Self {
+    pub(super) fn on(base: &[Vec3; 4], up: Vec3, weight_n: f64, friction: f64) -> Self {
         let centre = base.iter().sum::<Vec3>() / 4.0;
         let edges = std::array::from_fn(|k| {
             let (p, q) = (base[k], base[(k + 1) % 4]);

@@ -127,6 +127,8 @@ pub struct ForkSettings {
     /// By how much the tool leans ahead of the flap, and turns in its plane.
     pub leans_rad: Vec<f64>,
     pub yaws_rad: Vec<f64>,
+    /// Where all else fails it turns as far as this.
+    pub steep_yaws_rad: Vec<f64>,
     /// Where there is no room to come to the flap with the fingers flat, they lean by this share of it already.
     pub lean_in: f64,
     /// From the free edge's ends to the tool's middle, and how many places to either side of its middle.
@@ -155,6 +157,7 @@ impl Default for ForkSettings {
             shallow: 0.4,
             leans_rad: degrees(&[20.0, 32.0, 12.0]),
             yaws_rad: degrees(&[0.0, 25.0, -25.0]),
+            steep_yaws_rad: degrees(&[50.0, -50.0]),
             lean_in: 0.7,
             inset_m: 0.015,
             places: 2,
