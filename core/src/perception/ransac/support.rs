@@ -104,7 +104,10 @@ pub fn ground_among(
     settings: &PerceptionSettings,
 ) -> Result<Ground> {
     let candidates = footings(seen, settings, viewpoint);
-    let Some((chosen, footing)) = choose(&candidates, organized, settings, viewpoint.is_some())? else {
+    let is_whole = |(index, footing): &(usize, Footing)| {
+        viewpoint.is_none_or(|viewpoint| !is_seen_through(viewpoint, seen, *index, footing))
+    };
+    let Some((chosen, footing)) = choose(&candidates, organized, settings, viewpoint.is_some(), is_whole)? else {
         return Ok(no_plane(organized, settings));
     };
     let plane = refit(chosen, &footing.plane);
@@ -141,11 +144,12 @@ fn choose(
     organized: bool,
     settings: &PerceptionSettings,
     has_viewpoint: bool,
+    is_whole: impl Fn(&(usize, Footing)) -> bool,
 ) -> Result<Option<(usize, Footing)>> {
     let most = candidates.iter().map(|(_, f)| f.standing).fold(0.0, f64::max);
     if most >= MIN_STANDING {
         let best = best_by(candidates.iter(), |f| bearing_worth(f, organized));
-        return Ok(best.map(|floor| table_on(floor, candidates).clone()));
+        return Ok(best.map(|floor| table_on(floor, candidates, &is_whole).clone()));
     }
     let side = |f: &Footing| if has_viewpoint || settings.up.is_some() { 1.0 } else { side_worth(f) };
     // Around a container's base every wall is upright; around one of its walls the opposite wall is not.
@@ -160,7 +164,7 @@ fn choose(
     if settings.up.is_none() && !organized {
         refuse_rivals(candidates, best, bare)?;
     }
-    Ok(Some(table_on(best, candidates).clone()))
+    Ok(Some(table_on(best, candidates, &is_whole).clone()))
 }
 
 fn best_by<'a>(
@@ -199,8 +203,13 @@ fn bears(footing: &Footing) -> bool {
     is_stood_on || above >= MIN_STANDING.max(MIN_OVER_BELOW * footing.below as f64)
 }
 
-/// The highest table that bears things over the floor, else the floor itself.
-fn table_on<'a>(floor: &'a (usize, Footing), candidates: &'a [(usize, Footing)]) -> &'a (usize, Footing) {
+/// The highest table that bears things over the floor, else the floor itself. Level flaps around a box's opening are none: they are
+/// not whole.
+fn table_on<'a>(
+    floor: &'a (usize, Footing),
+    candidates: &'a [(usize, Footing)],
+    is_whole: impl Fn(&(usize, Footing)) -> bool,
+) -> &'a (usize, Footing) {
     let height_m = |f: &Footing| f.plane.distance - floor.1.plane.distance;
     let is_table = |(_, f): &&(usize, Footing)| {
         f.plane.normal.dot(&floor.1.plane.normal) > TABLE_LEVEL_COSINE
@@ -208,7 +217,7 @@ fn table_on<'a>(floor: &'a (usize, Footing), candidates: &'a [(usize, Footing)])
             && bears(f)
             && f.free_cells as f64 * f.cell_m.powi(2) > MIN_TABLE_M2
     };
-    let tables = candidates.iter().filter(is_table);
+    let tables = candidates.iter().filter(is_table).filter(|table| is_whole(table));
     tables.fold(floor, |best, t| if height_m(&t.1) > height_m(&best.1) { t } else { best })
 }
 
@@ -242,6 +251,12 @@ fn refuse_rivals(
     Ok(())
 }
 
+/// Whether more is seen behind a plane's readings than before them.
+fn is_seen_through(viewpoint: &Vec3, seen: &SeenPlanes, index: usize, footing: &Footing) -> bool {
+    let through = seen_through(seen.surfels, &seen.planes[index].sites, &footing.plane, viewpoint);
+    through >= MIN_THROUGH && through >= THROUGH_FACTOR * footing.above
+}
+
 /// Refuses a support that the sensor would have had to see through: more lies behind its readings than before them.
 fn refuse_from_below(
     viewpoint: Option<&Vec3>,
@@ -251,9 +266,8 @@ fn refuse_from_below(
     settings: &PerceptionSettings,
 ) -> Result<()> {
     let Some(viewpoint) = viewpoint else { return Ok(()) };
-    let through = seen_through(seen.surfels, &seen.planes[chosen].sites, &footing.plane, viewpoint);
     let from_above = footing.plane.height_of(viewpoint) > 0.0;
-    if from_above && (through < MIN_THROUGH || through < THROUGH_FACTOR * footing.above) {
+    if from_above && !is_seen_through(viewpoint, seen, chosen, footing) {
         return Ok(());
     }
     let mend = if settings.up.is_some() {
