@@ -11,7 +11,7 @@ from boxwright.simulation.frames import make_frame
 from boxwright.simulation.physics import cloud_of
 
 FLAPS = [("large", 8301, 122, None), ("part_shut", 8304, 40, 1), ("part_shut", 8304, 114, None)]
-"""Level within some degrees, and at a table's height over the floor: each was taken for one; the last as one seen from below."""
+"""Level within some degrees, at a table's height over the floor: each was taken for one (the last, seen from below)."""
 WALLS = [
     ("cake", 6001, 58, None),
     ("small", 6001, 18, None),
