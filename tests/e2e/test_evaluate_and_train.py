@@ -12,6 +12,7 @@ import pytest
 import boxwright as face
 from boxwright.evaluation import load_evaluation
 from boxwright.io.models import load_model
+from boxwright.learning import LearnedJudgement
 from boxwright.models import TEMPLATE_NAMES, load_weights
 from support.command import boxwright
 
@@ -63,6 +64,20 @@ def test_weights_are_learned_and_used(scene_set: Path, frame: Path, tmp_path: Pa
     assert first.training.frames == 3
     used = ("--method", "paper", "--template", "carton", "--weights", tmp_path / "carton.json")
     assert boxwright("infer", frame, "-o", tmp_path / "out", *used).status == 0
+
+
+def test_the_judgement_is_learned_without_a_refused_frame(tmp_path: Path) -> None:
+    boxwright("synth", "boxes", "--count", "4", "--seed", "77", folder=tmp_path)
+    boxwright("synth", "none", "--count", "3", "--seed", "78", "--category", "none", folder=tmp_path)
+    broken = min((tmp_path / "boxes").glob("*.pcd"))
+    broken.write_bytes(b"no cloud")
+    answer = boxwright("train", "boxes", "none", "--method", "fitted", "-o", "judgement.json", folder=tmp_path)
+    assert answer.status == 1
+    assert [line for line in answer.err.splitlines() if broken.name in line] == answer.err.splitlines()
+    assert "learned on 6 frames" in answer.out
+    learned = msgspec.json.decode((tmp_path / "judgement.json").read_bytes(), type=LearnedJudgement)
+    assert learned.training.frames == 6
+    assert learned.training.boxes > learned.training.false_boxes > 0
 
 
 def test_explained_terms_sum_to_the_score(frame: Path, carton: tuple[str, ...], tmp_path: Path) -> None:

@@ -97,7 +97,8 @@ def train(
 
     method = method or ("fitted" if template is None else "paper")
     if method == "fitted":
-        learn_judgement_of(folders, lying or [], output, jobs, as_json)
+        if learn_judgement_of(folders, lying or [], output, jobs, as_json):
+            raise typer.Exit(1)
         return
     if lying:
         raise typer.BadParameter("only the method fitted tells boxes that lie", param_hint="--lying")
@@ -128,16 +129,23 @@ def train(
         raise typer.Exit(1)
 
 
-def learn_judgement_of(folders: list[Path], lying: list[Path], output: Path, jobs: int | None, as_json: bool) -> None:
-    """Learns by what fitted boxes are judged, and tells it."""
+def learn_judgement_of(folders: list[Path], lying: list[Path], output: Path, jobs: int | None, as_json: bool) -> int:
+    """Learns by what fitted boxes are judged, and tells it; how many frames could not be used."""
     import shlex
     import sys
 
     import msgspec
 
+    from boxwright.cli.failures import tell
     from boxwright.evaluation import list_set
     from boxwright.learning import learn_judgement
     from boxwright.parallel import processors
+
+    refused: list[Path] = []
+
+    def refuse(entry: SetEntry, error: ValueError | OSError) -> None:
+        refused.append(entry.cloud_path)
+        tell(error, entry.cloud_path)
 
     learned = learn_judgement(
         [entry for folder in folders for entry in list_set(folder)],
@@ -145,6 +153,7 @@ def learn_judgement_of(folders: list[Path], lying: list[Path], output: Path, job
         command=shlex.join(["boxwright", *sys.argv[1:]]),
         jobs=jobs or processors(),
         progress=lambda line: print(line, file=sys.stderr, flush=True),
+        refuse=refuse,
     )
     learned.save(output)
     report = learned.training
@@ -155,6 +164,7 @@ def learn_judgement_of(folders: list[Path], lying: list[Path], output: Path, job
             f"{output}: learned on {report.frames} frames, {report.boxes} boxes of which {report.false_boxes} false, "
             f"{report.parts} panels of which {report.wrong_parts} wrong"
         )
+    return len(refused)
 
 
 def frames_of(

@@ -122,21 +122,33 @@ def learn_judgement(
     command: str,
     jobs: int,
     progress: Callable[[str], None] = lambda line: None,
+    refuse: Callable[[SetEntry, ValueError | OSError], None] = lambda entry, error: None,
 ) -> LearnedJudgement:
     """Weights from labelled frames, with boxes and without; the same frames give the same weights.
 
-    From `lying`, frames of boxes on their side, only how such boxes are judged is learnt.
+    From `lying`, frames of boxes on their side, only how such boxes are judged is learnt. A frame that cannot be used
+    is left out, and `refuse` told of it.
 
-    Raises ValueError where a frame cannot be used, where the frames hold no right box or no false one, and without
-    scikit-learn.
+    Raises ValueError where the frames that can be used hold no right box or no false one, and without scikit-learn.
     """
     require_learner()
-    count, every = len(entries), [*entries, *lying]
-    before = list(_seen(every, None, jobs, lambda line: progress(f"unjudged: {line}")))
+    unjudged = list(_seen([*entries, *lying], None, jobs, lambda line: progress(f"unjudged: {line}")))
+    count, every, before = 0, [], []
+    for k, (entry, told) in enumerate(zip([*entries, *lying], unjudged, strict=True)):
+        if not isinstance(told, Examples):
+            refuse(entry, told)
+            continue
+        count += k < len(entries)
+        every.append(entry)
+        before.append(told)
     first = _fitted(before[:count], before, told_from=(0.0, 0.0, 0.0))
     text = msgspec.json.encode(dict(zip(("box", "lying", "part"), first, strict=True))).decode()
     # A judgement chooses among rivals, so that it meets others than those that it learnt from.
-    judged = list(_seen(every, text, jobs, lambda line: progress(f"judged: {line}")))
+    judged: list[Examples] = []
+    for told in _seen(every, text, jobs, lambda line: progress(f"judged: {line}")):
+        if not isinstance(told, Examples):
+            raise told
+        judged.append(told)
     examples = before + judged
     told_from = (TOLD_FROM, LYING_TOLD_FROM, PART_TOLD_FROM)
     box, of_lying, part = _fitted(before[:count] + judged[:count], examples, told_from)
@@ -194,13 +206,20 @@ def fit_odds(examples: Sequence[tuple[dict[str, float], bool]], told_from: float
 
 def _seen(
     entries: Sequence[SetEntry], judgement: str | None, jobs: int, progress: Callable[[str], None]
-) -> Iterator[Examples]:
+) -> Iterator[Examples | ValueError | OSError]:
     # Of the templates only the names of the parts are used: this one has all that a box may have.
     _, model = load_object_model("cake_box", None, "exact")
-    for done, examples in enumerate(ordered_map(lambda entry: examples_of(entry, model, judgement), entries, jobs), 1):
+    for done, told in enumerate(ordered_map(lambda entry: _told_of(entry, model, judgement), entries, jobs), 1):
         if done % 50 == 0:
             progress(f"{done} of {len(entries)} frames")
-        yield examples
+        yield told
+
+
+def _told_of(entry: SetEntry, model: _core.ObjectModel, judgement: str | None) -> Examples | ValueError | OSError:
+    try:
+        return examples_of(entry, model, judgement)
+    except (ValueError, OSError) as error:
+        return error
 
 
 def examples_of(entry: SetEntry, model: _core.ObjectModel, judgement: str | None = None) -> Examples:
