@@ -41,13 +41,16 @@ pub fn all_astride(arm: &Arm, flap: &Flap, thickness_m: f64, settings: &ForkSett
         let open = flipped.filter_map(|astride| astride.opened(arm, flap, thickness_m, settings.gap_m));
         open.collect::<Vec<_>>()
     };
+    if !flap.tucks.is_empty() {
+        return one_sided(over_ends(arm, flap, settings.beside_tuck_m, settings));
+    }
     let deep = |is_straight: bool| {
         let yaws = settings.yaws_rad.iter().filter(move |yaw_rad| (**yaw_rad == 0.0) == is_straight);
         yaws.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, &settings.depths, settings)).collect::<Vec<_>>()
     };
     let yaws = settings.yaws_rad.iter();
     let shallow = yaws.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, &[settings.shallow], settings)).collect();
-    let over_ends = over_ends(arm, flap, settings);
+    let over_ends = over_ends(arm, flap, settings.edge_m, settings);
     let steep = settings.steep_yaws_rad.iter();
     let steep = steep.flat_map(|&yaw_rad| over_edge(flap, yaw_rad, &settings.depths, settings)).collect();
     [deep(true), over_ends, deep(false), shallow, steep].into_iter().flat_map(one_sided).collect()
@@ -82,10 +85,10 @@ fn over_edge(flap: &Flap, yaw_rad: f64, depths: &[f64], settings: &ForkSettings)
 }
 
 /// Over an end of the flap, the tool's axis along the hinge: across the fingers' width.
-fn over_ends(arm: &Arm, flap: &Flap, settings: &ForkSettings) -> Vec<Astride> {
+fn over_ends(arm: &Arm, flap: &Flap, edge_m: f64, settings: &ForkSettings) -> Vec<Astride> {
     let half_width_m = arm.gripper.finger_size_m.x / 2.0;
     let depth_m = 2.0 * half_width_m;
-    let away_m = (flap.length_m() - half_width_m - settings.edge_m).max(settings.least_tip_m + half_width_m);
+    let away_m = (flap.length_m() - half_width_m - edge_m).max(settings.least_tip_m + half_width_m);
     if away_m + half_width_m > flap.length_m() {
         return Vec::new();
     }
@@ -242,5 +245,21 @@ mod tests {
         }
         assert!(aside > 100, "{aside}");
         assert!(counted[0] > 50 && counted[1] > 100 && counted[2] > 100, "{counted:?}");
+    }
+
+    #[test]
+    fn fingers_come_over_an_end_of_a_flap_with_a_tuck_and_stay_off_that() {
+        let (arm, settings) = (Arm::from_toml(VIPER).unwrap(), ForkSettings::default());
+        let mut lid = flap(0.15);
+        let (near, far) = (0.15, 0.2);
+        let tuck = [[0.0, near], [0.2, near], [0.2, far], [0.0, far]].map(|[x, y]| Vec3::new(x, y, 0.0));
+        lid.tucks.push(("tuck_0".into(), tuck));
+        let half_width_m = arm.gripper.finger_size_m.x / 2.0;
+        let all = all_astride(&arm, &lid, THICKNESS_M, &settings);
+        for astride in &all {
+            assert!(astride.flat.column(2).y.abs() < 1e-9);
+            assert!(astride.pivot.y + half_width_m <= 0.15 - settings.beside_tuck_m + 1e-9, "{}", astride.pivot.y);
+        }
+        assert!(all.len() >= 12, "{}", all.len());
     }
 }

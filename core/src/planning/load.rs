@@ -83,6 +83,17 @@ impl Fold {
         self.crease_n_m - self.weight_n_m * angle_rad.cos()
     }
 
+    /// How fast the free edge of a flap of this length comes down to closed when it is pushed down from an angle: it falls from where it
+    /// is heavier than its crease bears; 0 where it is nowhere (eq. 96).
+    pub fn fall_m_per_s(&self, length_m: f64, from_rad: f64) -> f64 {
+        let share = self.crease_n_m / self.weight_n_m.max(f64::MIN_POSITIVE);
+        if share >= 1.0 {
+            return 0.0;
+        }
+        let falls_rad = share.acos().min(from_rad);
+        (3.0 * GRAVITY_M_PER_S2 * length_m * (falls_rad.sin() - share * falls_rad)).max(0.0).sqrt()
+    }
+
     /// Where it rests after it was held at an angle and let go: the crease gives back what the flap's weight lets it.
     pub fn rest_rad(&self, hold_rad: f64) -> f64 {
         hold_rad + self.given_back_rad(hold_rad)
@@ -274,6 +285,21 @@ mod tests {
         // With a force that tips it the same way, 1 N at 0.2 m, against 10 N times 0.1 m.
         let both = stand().strain_with_couple(&Vec3::new(0.0, 0.0, 0.2), &Vec3::x(), &couple);
         assert!((both - 0.6).abs() < 1e-9, "{both}");
+    }
+
+    #[test]
+    fn a_flap_falls_as_fast_as_its_weight_has_left_of_its_crease() {
+        let fold = Fold { crease_n_m: 0.0, weight_n_m: 0.2, return_rad: 0.2 };
+        // Upright on no crease at all: a stick of 0.3 m that falls by 90 degrees.
+        let upright = std::f64::consts::FRAC_PI_2;
+        assert!((fold.fall_m_per_s(0.3, upright) - (3.0 * GRAVITY_M_PER_S2 * 0.3).sqrt()).abs() < 1e-9);
+        // From where the crease no longer bears it, 60 degrees, however far it stood open; from below that, more slowly.
+        let borne = Fold { crease_n_m: 0.1, ..fold };
+        let sixty = std::f64::consts::FRAC_PI_3;
+        let expected = (3.0 * GRAVITY_M_PER_S2 * 0.3 * (sixty.sin() - sixty / 2.0)).sqrt();
+        assert!((borne.fall_m_per_s(0.3, upright) - expected).abs() < 1e-9);
+        assert!(borne.fall_m_per_s(0.3, 0.3) < 0.7 * expected && borne.fall_m_per_s(0.3, 0.3) > 0.0);
+        assert_eq!(Fold { crease_n_m: 0.2, ..fold }.fall_m_per_s(0.3, upright), 0.0);
     }
 
     #[test]

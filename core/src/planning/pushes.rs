@@ -53,6 +53,11 @@ impl<G: Guard> Closer<'_, G> {
         if let Some(obstacle) = self.meets_base(flap, moment, hold_rad) {
             return Err(WhyNot { by_flaps: false, ..WhyNot::by_boards(&obstacle) });
         }
+        if effort == Effort::Quick {
+            if let Some(push) = self.let_down(flap, moment, hold_rad) {
+                return Ok(push);
+            }
+        }
         let strain = self.load.worst_strain(self.problem, flap);
         // A box that a push nearly moves is moved by many: rather by a couple.
         let is_safe = strain <= self.settings.fork.least_strain;
@@ -77,7 +82,7 @@ impl<G: Guard> Closer<'_, G> {
     }
 
     /// A push with a reserve to what moves the box.
-    fn careful_push(&self, flap: usize, moment: &Moment, hold_rad: f64, searches: Range<usize>) -> Tried {
+    pub fn careful_push(&self, flap: usize, moment: &Moment, hold_rad: f64, searches: Range<usize>) -> Tried {
         let most_strain = self.settings.most_strain;
         let pushed = |to_rad: f64| self.pusher(flap, moment, to_rad, most_strain, searches.clone()).plan();
         let short_rad = self.settings.short_on_others_rad;

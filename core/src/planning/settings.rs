@@ -139,6 +139,13 @@ pub struct ForkSettings {
     /// The flap is turned down to the first, at the least to the second; a push goes on from where it springs back to.
     pub wanted_rad: f64,
     pub far_enough_rad: f64,
+    /// A flap whose free edge would come down faster than this by itself is let down between the fingers as far as they follow it, to
+    /// this angle at the most, and at the least to where it falls at this share of that.
+    pub most_fall_m_per_s: f64,
+    pub let_down_rad: f64,
+    pub slower_fall: f64,
+    /// So far from the free edge stay fingers over an end of a flap that a tuck hangs on.
+    pub beside_tuck_m: f64,
     /// Where that is not reached at once it is turned in so many stages, each at the least so far.
     pub most_stages: usize,
     pub least_part_rad: f64,
@@ -164,6 +171,10 @@ impl Default for ForkSettings {
             edge_m: 0.005,
             wanted_rad: 40f64.to_radians(),
             far_enough_rad: 62f64.to_radians(),
+            most_fall_m_per_s: 1.9,
+            let_down_rad: 10f64.to_radians(),
+            slower_fall: 0.93,
+            beside_tuck_m: 0.02,
             most_stages: 2,
             least_part_rad: 30f64.to_radians(),
         }

@@ -7,9 +7,9 @@ use super::effort::{FIRST, USUAL};
 use super::fork::Fork;
 use super::guard::{Guard, Moment};
 use super::known::Tried;
-use super::push::{PushMotion, Pusher};
+use super::push::{layers_between, PushMotion, Pusher};
 use super::reason::WhyNot;
-use super::settings::PlanningSettings;
+use super::settings::{ForkSettings, PlanningSettings};
 
 /// A motion, and where the flap rests after it, rad.
 pub type Stage = (PushMotion, f64);
@@ -78,13 +78,36 @@ impl<G: Guard> Closer<'_, G> {
         })
     }
 
+    /// A flap that would fall hard by itself, let down between the fingers and then pushed home. None where it does not fall so, or
+    /// where there is no way.
+    pub fn let_down(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Option<PushMotion> {
+        let (settings, length_m) = (self.settings_of(flap), self.problem.flaps[flap].length_m());
+        let (fork, start_rad) = (&settings.fork, moment.angles_rad[flap]);
+        let fall_m_per_s = |from_rad: f64| self.load.folds[flap].fall_m_per_s(length_m, from_rad);
+        if fall_m_per_s(start_rad) <= fork.most_fall_m_per_s {
+            return None;
+        }
+        let slower_m_per_s = fall_m_per_s(start_rad) * fork.slower_fall;
+        let angles = layers_between(start_rad, fork.let_down_rad, settings.sample_rad);
+        let until_rad = angles.into_iter().find(|&angle_rad| fall_m_per_s(angle_rad) <= slower_m_per_s)?;
+        let fork = ForkSettings { wanted_rad: fork.let_down_rad, ..fork.clone() };
+        let settings = PlanningSettings { fork, ..settings.clone() };
+        let (first, rest_rad) = self.forked_by(flap, moment, until_rad, &settings)?;
+        let push = self.careful_push(flap, &moment.left(flap, rest_rad), hold_rad, USUAL).ok()?;
+        Some(PushMotion { first: vec![first], ..push })
+    }
+
     /// With the fingers astride it, at the least to an angle.
     fn forked(&self, flap: usize, moment: &Moment, until_rad: f64) -> Option<Stage> {
+        self.forked_by(flap, moment, until_rad, self.settings_of(flap))
+    }
+
+    fn forked_by(&self, flap: usize, moment: &Moment, until_rad: f64, settings: &PlanningSettings) -> Option<Stage> {
         let (arm, guard, thickness_m) = (self.arm, self.guard, self.problem.thickness_m);
         let fork = Fork {
             arm,
             guard,
-            settings: self.settings_of(flap),
+            settings,
             flap: &self.problem.flaps[flap],
             number: flap,
             thickness_m,
