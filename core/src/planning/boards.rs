@@ -49,7 +49,7 @@ pub fn met(
         }
         let corners = moving.corners(angle_rad);
         let graze_m = GRAZE_M.min(GRAZE_SHARE * moving.length_m());
-        let [whole, inner] = [GRAZE_M, GOING_UNDER_END_M].map(|ends_m| shortened(&corners, ends_m, graze_m));
+        let (whole, inner) = (shortened(&corners, GRAZE_M, graze_m), shortened(&corners, GOING_UNDER_END_M, 0.0));
         let counts = |other: &&Beside| angle_rad > JAM_RAD || !other.gives_way;
         let meets = |other: &Beside| quads_cross(if other.is_over { &inner } else { &whole }, &other.corners);
         if let Some(other) = others.iter().filter(counts).find(|other| meets(other)) {
@@ -322,5 +322,18 @@ mod tests {
             assert_eq!(meets(wider_m, neighbour_rad), expected, "{wider_m} {neighbour_rad}");
         });
         assert_eq!(counted.len(), 4);
+    }
+
+    #[test]
+    fn what_goes_under_a_neighbour_that_leans_over_the_opening_does_so_to_its_free_edge() {
+        let settings = PlanningSettings::default();
+        // A neighbour that leans in by 20 degrees is 18.2 mm in at the height of the upright flap's free edge, 16.4 mm at nine tenths of it;
+        // the flap ends 6.5 or 9 mm from the corner, and 11 mm of that give way.
+        let asked = [(0.0065, true), (0.009, false)].map(|(narrower_m, expected)| {
+            let carton = carton(narrower_m, [0.05, 0.08, 0.05, 0.08]);
+            let angles_rad = [std::f64::consts::FRAC_PI_2, 1.22, 2.5, 2.5];
+            assert_eq!(met(&carton, &angles_rad, 0, 0.0, &settings).is_some(), expected, "{narrower_m}");
+        });
+        assert_eq!(asked.len(), 2);
     }
 }
