@@ -173,7 +173,7 @@ impl Default for ForkSettings {
             far_enough_rad: 62f64.to_radians(),
             most_fall_m_per_s: 1.9,
             let_down_rad: 10f64.to_radians(),
-            slower_fall: 0.93,
+            slower_fall: 0.9,
             beside_tuck_m: 0.02,
             most_stages: 2,
             least_part_rad: 30f64.to_radians(),
