@@ -198,6 +198,20 @@ fn model_list(models: &[PyRef<'_, ObjectModel>]) -> Vec<inference::ObjectModel> 
     models.iter().map(|m| m.model.clone()).collect()
 }
 
+/// By what fitted boxes are judged, read once from JSON text.
+#[pyclass(frozen, name = "Judgement", module = "boxwright._core")]
+pub struct PyJudgement {
+    judgement: Judgement,
+}
+
+#[pymethods]
+impl PyJudgement {
+    #[new]
+    fn new(judgement_json: &str) -> PyResult<Self> {
+        Ok(Self { judgement: Judgement::from_json(judgement_json).map_err(to_python)? })
+    }
+}
+
 /// From a cloud to its objects in one call.
 #[pyfunction]
 #[pyo3(signature = (points, width, height, models, viewpoint=None, up=None, perception=None, search=None, fitted=false, kinds=None, judgement=None, sizes=Vec::new()))]
@@ -214,7 +228,7 @@ fn infer(
     search: Option<&Bound<'_, PyDict>>,
     fitted: bool,
     kinds: Option<&Kinds>,
-    judgement: Option<&str>,
+    judgement: Option<&PyJudgement>,
     sizes: Vec<(String, [f64; 3])>,
 ) -> PyResult<(Perception, Answer)> {
     let points = rows_of_three(&points, width, height)?;
@@ -223,9 +237,9 @@ fn infer(
     let search = search_settings(search)?;
     let models = model_list(&models);
     let cloud = CloudView { points, width, height, viewpoint: viewpoint.map(Vec3::from) };
-    let judgement = judgement.map(Judgement::from_json).transpose().map_err(to_python)?;
+    let judgement = judgement.map(|told| &told.judgement);
     let sizes = known_sizes(&sizes)?;
-    let bodies = if fitted { Bodies::Fitted(&cloud, judgement.as_ref(), &sizes) } else { Bodies::Rectangles };
+    let bodies = if fitted { Bodies::Fitted(&cloud, judgement, &sizes) } else { Bodies::Rectangles };
     let kinds = kinds.map_or_else(open_box::Kinds::default, |told| told.kinds.clone());
     let inferred = py.detach(|| pipeline::infer(&cloud, &settings, &models, &search, bodies, &kinds));
     let (scene, answer) = inferred.map_err(to_python)?;
@@ -250,7 +264,7 @@ fn infer_frames(
     frames: Vec<PyFrame<'_>>,
     models: Vec<PyRef<'_, ObjectModel>>,
     kinds: &Kinds,
-    judgement: Option<&str>,
+    judgement: Option<&PyJudgement>,
     up: Option<[f64; 3]>,
     perception: Option<&Bound<'_, PyDict>>,
     sizes: Vec<(String, [f64; 3])>,
@@ -259,8 +273,8 @@ fn infer_frames(
     let settings = PerceptionSettings { up: up.map(Vec3::from), ..settings };
     let views: Vec<InputView> = frames.iter().map(input_view).collect::<PyResult<_>>()?;
     let (models, sizes) = (model_list(&models), known_sizes(&sizes)?);
-    let judgement = judgement.map(Judgement::from_json).transpose().map_err(to_python)?;
-    let inferred = py.detach(|| infer_views(&views, &settings, &models, &kinds.kinds, judgement.as_ref(), &sizes));
+    let judgement = judgement.map(|told| &told.judgement);
+    let inferred = py.detach(|| infer_views(&views, &settings, &models, &kinds.kinds, judgement, &sizes));
     let (scenes, answer) = inferred.map_err(to_python)?;
     let counts = views.iter().map(|view| view.cloud.points.len());
     let seen = scenes.into_iter().zip(counts).map(|(scene, point_count)| Perception { scene, point_count });
@@ -330,6 +344,7 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<ObjectModel>()?;
     m.add_class::<Answer>()?;
     m.add_class::<Kinds>()?;
+    m.add_class::<PyJudgement>()?;
     m.add("SHAPE_FEATURES", SHAPE_FEATURES.to_vec())?;
     m.add_function(wrap_pyfunction!(check_search, m)?)?;
     m.add_function(wrap_pyfunction!(check_sizes, m)?)?;

@@ -225,6 +225,12 @@ class Kinds:
     def __init__(self, weights_json: str) -> None:
         """Raises ValueError naming the key that does not fit."""
 
+class Judgement:
+    """By what fitted boxes, and their panels, are judged, from the text of a judgement file."""
+
+    def __init__(self, judgement_json: str) -> None:
+        """Raises ValueError naming the key that does not fit."""
+
 def check_search(**search: float | str) -> None:
     """Refuses settings of the search that do not exist or do not fit, by name: ValueError."""
 
@@ -242,12 +248,12 @@ def infer(
     search: dict[str, float | str] | None = None,
     fitted: bool = False,
     kinds: Kinds | None = None,
-    judgement: str | None = None,
+    judgement: Judgement | None = None,
     sizes: list[tuple[str, tuple[float, float, float]]] = ...,
 ) -> tuple[Perception, Answer]:
     """From a cloud to its objects in one call, bodies fitted or of rectangles; `kinds` tell fitted boxes' templates.
 
-    `judgement` is the text of a judgement file; without one every fitted box is told. `sizes` are outer sizes that
+    Without a `judgement` every fitted box is told. `sizes` are outer sizes that
     fitted boxes may have, as of `check_sizes`. Raises ValueError where the cloud cannot be used, with the mend.
     """
 
@@ -257,7 +263,7 @@ def infer_frames(
     frames: list[Frame],
     models: list[ObjectModel],
     kinds: Kinds,
-    judgement: str | None = None,
+    judgement: Judgement | None = None,
     up: tuple[float, float, float] | None = None,
     perception: dict[str, float | str] | None = None,
     sizes: list[tuple[str, tuple[float, float, float]]] = ...,

@@ -11,7 +11,7 @@ from scipy.optimize import minimize
 
 from boxwright import _core
 from boxwright.learning.judgement import RIDGE, Examples, LearnedJudgement, doubts_of, fit_logistic
-from boxwright.models import load_judgement, load_object_model
+from boxwright.models import JUDGEMENT_FILE
 
 
 def _examples(count: int, seed: int) -> list[tuple[dict[str, float], bool]]:
@@ -45,10 +45,7 @@ def test_the_learner_finds_what_scipy_finds() -> None:
 
 
 def test_a_judgement_that_does_not_fit_is_named() -> None:
-    text = load_judgement()
-    points = np.full((64 * 48, 3), np.nan, np.float32)
-    points[:] = np.random.default_rng(0).normal(size=points.shape) * 0.01 + [0.0, 0.0, 1.0]
-    _, model = load_object_model("carton", None, "exact")
+    text = JUDGEMENT_FILE.read_text()
     unknown_leaf = ["no_such_feature", 0.5, 0.0, 1.0]
     changes = {
         "on_walls": lambda judgement: judgement["box"]["weights"].pop("on_walls"),
@@ -69,12 +66,12 @@ def test_a_judgement_that_does_not_fit_is_named() -> None:
         broken = json.loads(text)
         change(broken)
         with pytest.raises(ValueError, match=f"judgement.*{expected}"):
-            _core.infer(points, 64, 48, [model], viewpoint=(0.0, 0.0, 0.0), fitted=True, judgement=json.dumps(broken))
+            _core.Judgement(json.dumps(broken))
 
 
 def test_the_shipped_judgement_is_what_the_learner_writes() -> None:
     """Doubted are small boxes, those without an inside and those that lack a side; from where, the rules say."""
-    shipped = msgspec.json.decode(load_judgement(), type=LearnedJudgement)
+    shipped = msgspec.json.decode(JUDGEMENT_FILE.read_text(), type=LearnedJudgement)
     edges = [float(edge) for edge in np.linspace(-3.0, 0.0, 101)]
     told = {"on_inner_faces": 1.0, "side_absent": 0.0}
     right = Examples(boxes=tuple(({"shorter_edge": edge} | told, True) for edge in edges), parts=())

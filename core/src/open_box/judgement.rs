@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::features::{named, Features, BOX_FEATURES, PART_FEATURES};
-use super::trees::Tree;
+use super::trees::{Forest, Tree};
 use crate::error::{InputError, Result};
 
 /// Learned weights, and trees, of what a fitted box, and each of its panels, is judged by (eq. 90).
@@ -23,6 +23,11 @@ pub struct Judgement {
 struct Odds {
     weights: BTreeMap<String, f64>,
     trees: Vec<Tree>,
+    #[serde(skip)]
+    forest: Forest,
+    /// The features' names, in the order of the forest's numbers.
+    #[serde(skip)]
+    known: &'static [&'static str],
     /// The least probability of what is told.
     told_from: f64,
     /// Where more is asked.
@@ -50,13 +55,15 @@ impl Judgement {
     /// # Errors
     /// Names what is missing, what is not known, and what is no number or tree.
     pub fn from_json(text: &str) -> Result<Self> {
-        let read: Self =
+        let mut read: Self =
             serde_json::from_str(text).map_err(|e| InputError::new(e.to_string()).in_source("judgement"))?;
         for (table, odds, known) in [
-            ("box", &read.of_box, &BOX_FEATURES[..]),
-            ("lying", &read.of_lying, &BOX_FEATURES[..]),
-            ("part", &read.of_part, &PART_FEATURES[..]),
+            ("box", &mut read.of_box, &BOX_FEATURES[..]),
+            ("lying", &mut read.of_lying, &BOX_FEATURES[..]),
+            ("part", &mut read.of_part, &PART_FEATURES[..]),
         ] {
+            odds.known = known;
+            odds.forest = Forest::new(&odds.trees, known).unwrap_or_default();
             if let Some(wrong) = odds.wrong(known) {
                 let mend = format!("it weighs {}", known.join(", "));
                 return Err(InputError::new(format!("judgement.{table}: {wrong}")).mend(mend));
@@ -125,7 +132,16 @@ impl Odds {
 
     fn terms(&self, features: &Features) -> Vec<(&'static str, f64, f64)> {
         let weighed = features.iter().map(|&(name, value)| (name, value, self.weights[name]));
-        weighed.chain([(TREES, self.trees.iter().map(|tree| tree.at(features)).sum(), 1.0)]).collect()
+        let is_at = |number: usize, name: &str| features.get(number).is_some_and(|(other, _)| *other == name);
+        let value = |(number, name): (usize, &&str)| {
+            if is_at(number, name) {
+                features[number].1
+            } else {
+                named(features, name)
+            }
+        };
+        let values: Vec<f64> = self.known.iter().enumerate().map(value).collect();
+        weighed.chain([(TREES, self.forest.sum(&values), 1.0)]).collect()
     }
 }
 

@@ -1,8 +1,6 @@
 use serde::Deserialize;
 
-use super::features::{named, Features};
-
-/// A small decision tree: what it adds to the log odds at each leaf.
+/// A small decision tree, as it is written: what it adds to the log odds at each leaf.
 ///
 /// In JSON a leaf is a number, a split a list: the feature's name, the bound, the tree up to it, the tree above.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -13,16 +11,6 @@ pub enum Tree {
 }
 
 impl Tree {
-    pub fn at(&self, features: &Features) -> f64 {
-        match self {
-            Self::Leaf(value) => *value,
-            Self::Split(name, bound, up_to, above) => {
-                let next = if named(features, name) <= *bound { up_to } else { above };
-                next.at(features)
-            }
-        }
-    }
-
     /// The names of the features that it asks for.
     pub fn features(&self) -> Vec<&str> {
         match self {
@@ -35,16 +23,71 @@ impl Tree {
     }
 }
 
+/// Trees that ask for features by their numbers: a box is judged dozens of times in a frame.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Forest {
+    nodes: Vec<Node>,
+    roots: Vec<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Node {
+    Leaf(f64),
+    Split { feature: usize, bound: f64, up_to: usize, above: usize },
+}
+
+impl Forest {
+    /// `None` where a tree asks for a feature that is not among the known ones.
+    pub fn new(trees: &[Tree], known: &[&str]) -> Option<Self> {
+        let mut out = Self::default();
+        for tree in trees {
+            let root = out.add(tree, known)?;
+            out.roots.push(root);
+        }
+        Some(out)
+    }
+
+    fn add(&mut self, tree: &Tree, known: &[&str]) -> Option<usize> {
+        let node = match tree {
+            Tree::Leaf(value) => Node::Leaf(*value),
+            Tree::Split(name, bound, up_to, above) => {
+                let feature = known.iter().position(|other| other == name)?;
+                Node::Split { feature, bound: *bound, up_to: self.add(up_to, known)?, above: self.add(above, known)? }
+            }
+        };
+        self.nodes.push(node);
+        Some(self.nodes.len() - 1)
+    }
+
+    /// The sum of all trees at these values of the known features.
+    pub fn sum(&self, values: &[f64]) -> f64 {
+        self.roots.iter().map(|&root| self.at(root, values)).sum()
+    }
+
+    fn at(&self, mut number: usize, values: &[f64]) -> f64 {
+        loop {
+            match self.nodes[number] {
+                Node::Leaf(value) => return value,
+                Node::Split { feature, bound, up_to, above } => {
+                    number = if values[feature] <= bound { up_to } else { above };
+                }
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_tree_is_followed_to_its_leaf() {
+    fn trees_are_followed_to_their_leaves() {
         let tree: Tree = serde_json::from_str(r#"["a", 0.5, -1.0, ["b", 2, 0.25, 3]]"#).unwrap();
-        let at = |a: f64, b: f64| tree.at(&vec![("a", a), ("b", b)]);
-        assert_eq!([at(0.5, 9.0), at(0.6, 2.0), at(0.6, 2.1)], [-1.0, 0.25, 3.0]);
         assert_eq!(tree.features(), ["a", "b"]);
+        let forest = Forest::new(&[tree.clone(), Tree::Leaf(0.5)], &["b", "a"]).unwrap();
+        let at = |a: f64, b: f64| forest.sum(&[b, a]);
+        assert_eq!([at(0.5, 9.0), at(0.6, 2.0), at(0.6, 2.1)], [-0.5, 0.75, 3.5]);
+        assert_eq!(Forest::new(&[tree], &["a"]), None);
     }
 
     #[test]

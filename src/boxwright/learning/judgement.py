@@ -142,10 +142,10 @@ def learn_judgement(
         every.append(entry)
         before.append(told)
     first = _fitted(before[:count], before, told_from=(0.0, 0.0, 0.0))
-    text = msgspec.json.encode(dict(zip(("box", "lying", "part"), first, strict=True))).decode()
+    told_all = _core.Judgement(msgspec.json.encode(dict(zip(("box", "lying", "part"), first, strict=True))).decode())
     # A judgement chooses among rivals, so that it meets others than those that it learnt from.
     judged: list[Examples] = []
-    for told in _seen(every, text, jobs, lambda line: progress(f"judged: {line}")):
+    for told in _seen(every, told_all, jobs, lambda line: progress(f"judged: {line}")):
         if not isinstance(told, Examples):
             raise told
         judged.append(told)
@@ -205,7 +205,7 @@ def fit_odds(examples: Sequence[tuple[dict[str, float], bool]], told_from: float
 
 
 def _seen(
-    entries: Sequence[SetEntry], judgement: str | None, jobs: int, progress: Callable[[str], None]
+    entries: Sequence[SetEntry], judgement: _core.Judgement | None, jobs: int, progress: Callable[[str], None]
 ) -> Iterator[Examples | ValueError | OSError]:
     # Of the templates only the names of the parts are used: this one has all that a box may have.
     _, model = load_object_model("cake_box", None, "exact")
@@ -215,14 +215,16 @@ def _seen(
         yield told
 
 
-def _told_of(entry: SetEntry, model: _core.ObjectModel, judgement: str | None) -> Examples | ValueError | OSError:
+def _told_of(
+    entry: SetEntry, model: _core.ObjectModel, judgement: _core.Judgement | None
+) -> Examples | ValueError | OSError:
     try:
         return examples_of(entry, model, judgement)
     except (ValueError, OSError) as error:
         return error
 
 
-def examples_of(entry: SetEntry, model: _core.ObjectModel, judgement: str | None = None) -> Examples:
+def examples_of(entry: SetEntry, model: _core.ObjectModel, judgement: _core.Judgement | None = None) -> Examples:
     """What is found in one frame, and whether it is right: unjudged, or as a judgement chooses that tells all."""
     frame = read_entry(entry)
     cloud = read_cloud(entry.cloud_path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import msgspec
@@ -27,6 +28,7 @@ EXACT = "exact"
 """What is shipped for the method of that name: templates with further terms, and weights for the default front end."""
 FITTED = "fitted"
 """The method that fits bodies: its boxes are judged by weights of their own."""
+JUDGEMENT_FILE = _HERE / "weights" / FITTED / "judgement.json"
 
 
 def shipped_for(method: str, planes: str) -> str:
@@ -45,9 +47,10 @@ def shipped_for(method: str, planes: str) -> str:
     return EXACT
 
 
-def load_judgement() -> str:
-    """The text of the shipped weights by which fitted boxes are judged; the core reads it."""
-    return _read_text(_HERE / "weights" / FITTED / "judgement.json")
+@cache
+def load_judgement() -> _core.Judgement:
+    """The shipped weights by which fitted boxes are judged; read once."""
+    return _core.Judgement(_read_text(JUDGEMENT_FILE))
 
 
 def _template_path(name_or_path: str | Path, shipped: str | None) -> Path:
