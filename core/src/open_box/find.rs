@@ -10,7 +10,8 @@ use super::judgement::Judgement;
 use super::last_fits::last_fits;
 use super::patch::Patch;
 use super::refused::Refused;
-use super::shells::{alike, lies, outer_m, overlap, shells, Shell};
+use super::rivals::{best_of_rivals, fitted_in_turn};
+use super::shells::{outer_m, shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
 use super::told::is_told;
@@ -18,12 +19,6 @@ use crate::fit::{best_match, best_match_within, share_of_score, FitSettings, Fit
 use crate::perception::clock::Clock;
 use crate::perception::Scene;
 
-/// Of proposals that lie upon each other so many are fitted.
-const RIVALS_FITTED: usize = 8;
-/// The same of proposals of boxes on their side.
-const LYING_FITTED: usize = 4;
-/// Proposals whose walls are all this near to each other fit alike.
-const TWINS_M: f64 = 0.016;
 /// How well a proposal's lengths are known.
 const PROPOSED_SIGMA_M: f64 = 0.01;
 
@@ -64,34 +59,25 @@ pub fn find(
         let probability = judgement.map_or(1.0, |judgement| judgement.box_probability(&features));
         FoundBox { features, probability, size: best_match(&one.solution, sizes), ..one }
     };
-    let of_shells = best_of_rivals(&shells).into_par_iter().map(|shell| (body_of(&shell.proposal), shell.flaps));
+    let rivals = best_of_rivals(&shells);
+    let fit = |shell: &Shell| grow(sight, &body_of(&shell.proposal), &shell.flaps, settings).map(weighed);
+    // Nobody says that one is surely a box where nobody judges.
+    let of_shells: Vec<Option<FoundBox>> = match judgement {
+        Some(_) => fitted_in_turn(&rivals, fit),
+        None => rivals.par_iter().map(|shell| fit(shell)).collect(),
+    };
     let of_assignments = assignments.bodies.par_iter().map(|body| {
         let input_from_object = sight.input_from_level.inverse() * body.input_from_object;
         let body = FittedBody { input_from_object, ..body.clone() };
         let flaps = scan_flaps(sight, &body, COARSE_M, COARSE_SCAN);
-        (body, flaps)
+        grow(sight, &body, &flaps, settings).map(weighed)
     });
-    let rivals = of_shells.chain(of_assignments);
-    let found = rivals.filter_map(|(body, flaps)| grow(sight, &body, &flaps, settings)).map(weighed).collect();
+    let of_assignments: Vec<Option<FoundBox>> = of_assignments.collect();
+    let found = of_shells.into_iter().chain(of_assignments).flatten().collect();
     clock.lap("rival_fits");
     let patches = Patch::of_things(scene, sight);
     let finishing = Finishing { sight, patches: &patches, assignments, sizes, settings, judgement };
     let (boxes, refused) = last_fits(found, &finishing);
     clock.lap("last_fits");
     Found { boxes, refused, stage_seconds: clock.laps }
-}
-
-/// Without those that lie upon enough better ones.
-fn best_of_rivals(shells: &[Shell]) -> Vec<&Shell> {
-    let mut out: Vec<&Shell> = Vec::new();
-    for shell in shells {
-        let is_lying = lies(&shell.proposal);
-        let rivals = out.iter().filter(|other| lies(&other.proposal) == is_lying);
-        let most = if is_lying { LYING_FITTED } else { RIVALS_FITTED };
-        let is_new = out.iter().all(|other| !alike(&other.proposal, &shell.proposal, TWINS_M));
-        if is_new && rivals.filter(|other| overlap(&other.proposal, &shell.proposal)).count() < most {
-            out.push(shell);
-        }
-    }
-    out
 }

@@ -37,6 +37,8 @@ pub struct Finishing<'a> {
 
 /// A finished box is finished anew, from what it has come to, at most so often: what it now is shows flaps that it did not.
 const ROUNDS: usize = 2;
+/// With the same panels it must have come to rank so much higher for that: by less, readings at its panels' ends come and go.
+const CHANGED: f64 = 1.01;
 
 /// A box with flaps that stand up holds at least this share of what it held as one of higher sides.
 const BELOW_SLOTS: f64 = 0.9;
@@ -94,9 +96,13 @@ impl Finishing<'_> {
     fn while_better(&self, first: FoundBox) -> FoundBox {
         let mut best = first;
         for _ in 0..ROUNDS {
+            let (present, rank) = (best.present, self.rank(&best));
             match self.finish(best.clone()) {
-                Ok(one) if self.rank(&one) > self.rank(&best) => best = one,
+                Ok(one) if self.rank(&one) > rank => best = one,
                 _ => break,
+            }
+            if best.present == present && self.rank(&best) < CHANGED * rank {
+                break;
             }
         }
         best

@@ -35,6 +35,7 @@ mod refit;
 mod refused;
 mod rim_lines;
 mod rims;
+mod rivals;
 mod same;
 mod settle;
 mod shape;
