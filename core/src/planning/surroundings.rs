@@ -155,7 +155,7 @@ impl Guard for Surroundings<'_> {
         }
         let number = self.conflicts.get();
         self.conflicts.set(number + 1);
-        if number >= EXPLAINED && number % EXPLAINED_OF != 0 {
+        if number >= EXPLAINED && !number.is_multiple_of(EXPLAINED_OF) {
             return Some(Obstacle::Something);
         }
         let nearest = checker.nearest(positions_rad, &state.rules[rules].1);

@@ -141,7 +141,7 @@ impl Floor<'_> {
         let (width, height) = (rays.width as u32, rays.height as u32);
         let at_border = |r: &Run| {
             let row = r.start / width;
-            row == 0 || row + 1 == height || r.start % width == 0 || r.end % width == 0
+            row == 0 || row + 1 == height || r.start.is_multiple_of(width) || r.end.is_multiple_of(width)
         };
         let hull: Vec<Point2> = part.hull.iter().map(|c| self.frame.to_plane(c)).collect();
         let fills = polygon_area(&hull) > MIN_FILL * part.rectangle.area()

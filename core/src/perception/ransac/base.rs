@@ -110,7 +110,7 @@ fn pixel_patches(band: &[bool], width: usize) -> Vec<Vec<u32>> {
         let mut next = 0;
         while next < patch.len() {
             let i = patch[next] as usize;
-            let (left, right) = (i % width != 0, i % width + 1 < width);
+            let (left, right) = (!i.is_multiple_of(width), i % width + 1 < width);
             let around =
                 [(left, i.wrapping_sub(1)), (right, i + 1), (i >= width, i.wrapping_sub(width)), (true, i + width)];
             for (_, j) in around.into_iter().filter(|&(inside, j)| inside && j < band.len()) {
