@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
 use super::sight::{reading_of, Sight};

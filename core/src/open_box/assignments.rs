@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::owners::Owners;
 use crate::body::build_object;
 use crate::error::Result;

@@ -1,6 +1,6 @@
 //! Which of the fitted boxes stand in the scene: those that together hold most readings, none of them another's.
 
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::same::{is_higher, is_same};
 use super::shells::LEAST_SCORE;
 

@@ -2,8 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::features::{amount, named};
-use super::grow::FoundBox;
+use super::feature_names::named;
+use super::features::amount;
+use super::found_box::FoundBox;
 use crate::fit::{layout, Role};
 
 /// A flap this near to its side's plane continues it, rad: about 12 degrees.

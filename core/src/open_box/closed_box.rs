@@ -1,7 +1,8 @@
 //! Boxes that are closed: what looks from outside like a box with a top on it. They are asked for where a template is one.
 
 use super::evidence::{Evidence, Sheet};
-use super::grow::{competing, sound, FoundBox, COARSE_M, COARSE_STRIDE, FINE_M};
+use super::found_box::{FoundBox, COARSE_M, COARSE_STRIDE, FINE_M};
+use super::grow::{competing, sound};
 use super::label::label;
 use super::labels::{roles, Present};
 use super::patch::Patch;

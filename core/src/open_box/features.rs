@@ -3,7 +3,8 @@
 use super::assignments::Assignments;
 use super::ends::goes_on;
 use super::evidence::{Evidence, Sheet};
-use super::grow::{FoundBox, FINE_M};
+use super::feature_names::Features;
+use super::found_box::{FoundBox, FINE_M};
 use super::lean::lean;
 use super::owners::Owners;
 use super::rims;
@@ -13,69 +14,6 @@ use super::upright::lies;
 use crate::fit::{layout, lid_length_m, FittedBody, Role};
 use crate::free_space::PartState;
 
-/// Named values, always in the same order.
-pub type Features = Vec<(&'static str, f64)>;
-
-/// Their names, in order.
-pub const BOX_FEATURES: [&str; 35] = [
-    "one",
-    "on_walls",
-    "on_inner_faces",
-    "looked_inside",
-    "closed_over",
-    "on_open_flaps",
-    "on_closed_flaps",
-    "looked_through",
-    "walls_hidden",
-    "sides_seen",
-    "flaps_seen",
-    "base_seen",
-    "shorter_edge",
-    "height",
-    "slimness",
-    "held",
-    "flaps_go_on",
-    "hidden_and_closed",
-    "flaps_and_inside",
-    "walls_by_height",
-    "hidden_behind_flaps",
-    "hidden_by_size",
-    "lid_and_inside",
-    "rims_free",
-    "rims_go_on",
-    "rims_looked_through",
-    "sides_go_on",
-    "assignment",
-    "lies",
-    "range",
-    "off_support",
-    "score",
-    "longest_flap",
-    "flaps_unlike",
-    "side_absent",
-];
-pub const PART_FEATURES: [&str; 19] = [
-    "one",
-    "is_base",
-    "is_flap",
-    "is_tuck",
-    "readings",
-    "lean",
-    "looked_through",
-    "hidden",
-    "covered",
-    "length",
-    "is_inner",
-    "few_and_hidden",
-    "held",
-    "goes_on",
-    "off_lid",
-    "range",
-    "angle",
-    "unlike",
-    "of_box",
-];
-
 /// A flap that is open further counts as open: flaps that lie closed look like a lid.
 const OPEN_RAD: f64 = 0.4;
 /// Readings are told in this unit, by the logarithm of one more.
@@ -84,11 +22,6 @@ const UNIT: f64 = 400.0;
 /// Readings by their logarithm.
 pub fn amount(readings: f64) -> f64 {
     (readings.max(0.0) / UNIT).ln_1p()
-}
-
-/// The value of a feature, 0 where it was not asked.
-pub fn named(features: &Features, name: &str) -> f64 {
-    features.iter().find(|(other, _)| *other == name).map_or(0.0, |(_, value)| *value)
 }
 
 /// Whether there is any, by degrees.

@@ -7,7 +7,8 @@ use super::edge_on::with_edge_on_lids;
 use super::evidence::{Evidence, Sheet};
 use super::features;
 use super::flap_scan::ScannedFlap;
-use super::grow::{competing, grow, sound, weigh, FoundBox, COARSE_STRIDE, FINE_M};
+use super::found_box::{FoundBox, COARSE_STRIDE, FINE_M};
+use super::grow::{competing, grow, sound, weigh};
 use super::hanging::{
     scan_flaps, scan_flaps_into_box, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN,
 };

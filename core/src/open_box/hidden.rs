@@ -1,6 +1,6 @@
 //! What the answer says of parts that were not seen: hidden or absent, and from where a hidden one would be seen.
 
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::labels::roles;
 use super::next_view::Surroundings;
 use super::sight::Sight;

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::features::{named, Features, BOX_FEATURES, PART_FEATURES};
+use super::feature_names::{named, Features, BOX_FEATURES, PART_FEATURES};
 use super::trees::{Forest, Tree};
 use crate::error::{InputError, Result};
 

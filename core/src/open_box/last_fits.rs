@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::choose::{choose, excludes, Chosen};
 use super::finish::Finishing;
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::judgement::Judgement;
 use super::refused::{Refusal, Refused};
 use super::told::refusal;

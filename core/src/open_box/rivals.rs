@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::shells::{alike, lies, overlap, Shell};
 
 /// Of proposals that lie upon each other so many are fitted.

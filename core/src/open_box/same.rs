@@ -1,6 +1,6 @@
 //! Whether two fitted boxes are one: whatever follows leads both to the same answer. And whether one is another with higher sides.
 
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use crate::fit::layout;
 
 /// Two are one whose numbers are nearer than these.

@@ -1,7 +1,7 @@
 use crate::body::ObjectAnswer;
 use crate::fit::{layout, Role};
 
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::judgement::Judgement;
 
 /// What tells a box's kind: of a fitted body what was seen of it, metres.

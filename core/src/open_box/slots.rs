@@ -1,6 +1,6 @@
 //! Flaps that stand up continue their sides: nothing but the slots between them, open at the corners, tells where the sides end.
 
-use super::grow::FINE_M;
+use super::found_box::FINE_M;
 use super::labels::Present;
 use super::sight::{Says, Sight};
 use crate::fit::{layout, FittedBody, Rim};

@@ -1,7 +1,7 @@
 //! Which parts of a fitted body are sure enough to be told.
 
 use super::evidence::Sheet;
-use super::grow::FINE_M;
+use super::found_box::FINE_M;
 use super::labels::{Labels, Present};
 use super::lean::lean;
 use super::sight::Sight;

@@ -1,7 +1,7 @@
 //! Which finished boxes are told.
 
 use super::closed::may_be_closed;
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::judgement::Judgement;
 use super::labels::roles;
 use super::refused::Refusal;

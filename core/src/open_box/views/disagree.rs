@@ -1,7 +1,7 @@
 //! Frames that contradict each other: one looks through the box that another shows.
 
 use super::super::evidence::{Evidence, Sheet};
-use super::super::grow::FINE_M;
+use super::super::found_box::FINE_M;
 use super::super::sight::Sight;
 use super::matching::Sighting;
 use super::places::SURE;

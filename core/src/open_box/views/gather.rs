@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use super::super::assignments::Assignments;
 use super::super::evidence::Evidence;
-use super::super::features::{self, Features};
-use super::super::grow::{weigh, FoundBox};
+use super::super::feature_names::Features;
+use super::super::features;
+use super::super::found_box::FoundBox;
+use super::super::grow::weigh;
 use super::super::judgement::{probability, Judgement};
 use super::super::labels::{roles, Labels, Present};
 use super::super::sight::Sight;

@@ -2,7 +2,8 @@
 
 use nalgebra::Isometry3;
 
-use super::super::grow::{competing, sound, COARSE_M, FINE_M, ONCE_FITTED_M};
+use super::super::found_box::{COARSE_M, FINE_M, ONCE_FITTED_M};
+use super::super::grow::{competing, sound};
 use super::super::label::label;
 use super::super::labels::{Labels, Present};
 use super::super::refit::refit_views;

@@ -1,6 +1,6 @@
 use nalgebra::Isometry3;
 
-use super::super::grow::FoundBox;
+use super::super::found_box::FoundBox;
 use super::super::sight::{level, Sight};
 use super::View;
 use crate::cloud::Projection;

@@ -1,6 +1,6 @@
 use nalgebra::Isometry3;
 
-use super::super::grow::FoundBox;
+use super::super::found_box::FoundBox;
 use super::super::judgement::{probability, Judgement};
 use super::super::labels::Present;
 use crate::fit::{layout, FittedBody, Rim};

@@ -14,7 +14,7 @@ use nalgebra::Isometry3;
 use super::assignments::Assignments;
 use super::choose::choose;
 use super::find::find;
-use super::grow::FoundBox;
+use super::found_box::FoundBox;
 use super::judgement::Judgement;
 use super::refused::{Refusal, Refused};
 use super::sight::Sight;
