@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::found_box::FoundBox;
-use super::shells::{alike, lies, overlap, Shell};
+use super::proposed::{alike, lies, overlap};
+use super::shells::Shell;
 
 /// Of proposals that lie upon each other so many are fitted.
 const RIVALS_FITTED: usize = 8;
@@ -76,7 +77,7 @@ mod tests {
     use super::super::labels::{Labels, Present};
     use super::super::proposal::Proposal;
     use super::super::rims::OnRims;
-    use super::super::shell::ShellLook;
+    use super::super::shell_look::ShellLook;
     use super::*;
     use crate::fit::{FittedBody, Parameters, Solution};
     use crate::geometry::Vec3;

@@ -6,12 +6,14 @@ use super::flap_scan::ScannedFlap;
 use super::lids::of_lids;
 use super::patch::Patch;
 use super::proposal::{proposals, turned, Proposal, OF_FLAPS};
+use super::proposed::{alike, lies, overlap};
 use super::rim_lines::{edge_points, walls_of_rims, yaws_of_edges};
 use super::rims::{self, OnRims};
-use super::shell::{Rays, ShellLook};
+use super::shell::Rays;
+use super::shell_look::ShellLook;
 use super::sight::Sight;
 use super::start::body_of;
-use super::upright::{is_lying, lying_frames, ways_up};
+use super::upright::{lying_frames, ways_up};
 use super::yaw::{near, yaws};
 use crate::geometry::Vec3;
 use crate::perception::Scene;
@@ -105,41 +107,3 @@ fn all_proposals(patches: &[Patch], edges: &[Vec3], eye: &Vec3) -> Vec<Proposal>
 /// So many pixels for a box more than against it.
 pub const LEAST_SCORE: f64 = 300.0;
 const ALIKE_M: f64 = 0.009;
-/// What stands on one support has ways up nearer than this.
-const ALIKE_UP_COS: f64 = 0.7;
-
-/// Whether all walls of two proposals are this near to each other.
-pub fn alike(a: &Proposal, b: &Proposal, most_m: f64) -> bool {
-    let same_axes = a.axes[0].dot(&b.axes[0]) > 0.998 && a.up.dot(&b.up) > 0.9993;
-    let near = |x: &[f64; 2], y: &[f64; 2]| (x[0] - y[0]).abs() < most_m && (x[1] - y[1]).abs() < most_m;
-    same_axes && near(&a.spans[0], &b.spans[0]) && near(&a.spans[1], &b.spans[1]) && near(&a.heights, &b.heights)
-}
-
-/// Whether it is one of a box on its side.
-pub fn lies(proposal: &Proposal) -> bool {
-    is_lying(&proposal.up)
-}
-
-/// Whether one's middle lies in the other.
-pub fn overlap(a: &Proposal, b: &Proposal) -> bool {
-    let within = |a: &Proposal, b: &Proposal| {
-        let middle = middle(b);
-        let is_between = |[low, high]: [f64; 2], axis: &Vec3| (low..=high).contains(&axis.dot(&middle));
-        // What stands on one support is told apart by where it stands; what lies has no end of its own above.
-        let is_alike = a.up.dot(&b.up) > ALIKE_UP_COS;
-        (0..2).all(|i| is_between(a.spans[i], &a.axes[i])) && (is_alike || is_between(a.heights, &a.up))
-    };
-    within(a, b) || within(b, a)
-}
-
-/// Length, width and height over the boards, m.
-pub fn outer_m(proposal: &Proposal) -> [f64; 3] {
-    let [x, y] = proposal.spans;
-    [x[1] - x[0], y[1] - y[0], proposal.heights[1] - proposal.heights[0]]
-}
-
-pub fn middle(proposal: &Proposal) -> Vec3 {
-    let half = |span: &[f64; 2]| (span[0] + span[1]) / 2.0;
-    let [x, y] = proposal.spans.each_ref().map(half);
-    proposal.axes[0] * x + proposal.axes[1] * y + proposal.up * half(&proposal.heights)
-}

@@ -3,7 +3,7 @@
 use wide::f32x4;
 
 use super::proposal::Proposal;
-use super::shell::ShellLook;
+use super::shell_look::ShellLook;
 
 /// Every so many pixels of a row, and rows, are asked.
 pub const STRIDE: usize = 8;

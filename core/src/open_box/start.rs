@@ -1,7 +1,7 @@
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
 use super::proposal::Proposal;
-use super::shells::middle;
+use super::proposed::middle;
 use crate::fit::{layout, FittedBody, Parameters};
 
 /// What a fit starts from where nothing is known, metres.
