@@ -1,4 +1,4 @@
-//! The names of what a fitted box, and each of its panels, is judged by.
+//! The names of what a fitted box, and each of its panels, is judged by, and values by these names.
 
 /// Named values, always in the same order.
 pub type Features = Vec<(&'static str, f64)>;

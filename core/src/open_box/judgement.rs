@@ -22,6 +22,7 @@ pub struct Judgement {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 struct Odds {
     weights: BTreeMap<String, f64>,
+    /// As they are written, until the forest is made of them.
     trees: Vec<Tree>,
     #[serde(skip)]
     forest: Forest,
@@ -62,12 +63,10 @@ impl Judgement {
             ("lying", &mut read.of_lying, &BOX_FEATURES[..]),
             ("part", &mut read.of_part, &PART_FEATURES[..]),
         ] {
-            odds.known = known;
-            odds.forest = Forest::new(&odds.trees, known).unwrap_or_default();
-            if let Some(wrong) = odds.wrong(known) {
+            odds.bind(known).map_err(|wrong| {
                 let mend = format!("it weighs {}", known.join(", "));
-                return Err(InputError::new(format!("judgement.{table}: {wrong}")).mend(mend));
-            }
+                InputError::new(format!("judgement.{table}: {wrong}")).mend(mend)
+            })?;
         }
         Ok(read)
     }
@@ -115,19 +114,28 @@ impl Judgement {
 }
 
 impl Odds {
-    /// What is wrong with them where the features have these names.
-    fn wrong(&self, known: &[&str]) -> Option<String> {
-        let missing = known.iter().find(|name| !self.weights.contains_key(**name));
-        let named = self.weights.keys().map(String::as_str).chain(self.trees.iter().flat_map(Tree::features));
-        let unknown = named.into_iter().find(|name| !known.contains(name));
-        let is_share = |bound: &f64| (0.0..=1.0).contains(bound);
+    /// To features of these names.
+    ///
+    /// # Errors
+    /// What is wrong where the features have these names.
+    fn bind(&mut self, known: &'static [&'static str]) -> std::result::Result<(), String> {
+        if let Some(missing) = known.iter().find(|name| !self.weights.contains_key(**name)) {
+            return Err(format!("has no weight of {missing}"));
+        }
+        let is_unknown = |name: &String| format!("{name} is not known");
+        if let Some(unknown) = self.weights.keys().find(|name| !known.contains(&name.as_str())) {
+            return Err(is_unknown(unknown));
+        }
+        self.forest = Forest::new(&std::mem::take(&mut self.trees), known).map_err(|name| is_unknown(&name))?;
+        self.known = known;
+        if let Some(wrong) = self.doubts.iter().find_map(|doubt| doubt.wrong(known)) {
+            return Err(wrong);
+        }
         let mut bounds = std::iter::once(self.told_from).chain(self.doubts.iter().map(|doubt| doubt.told_from));
-        let no_share = bounds.find(|bound| !is_share(bound));
-        missing
-            .map(|name| format!("has no weight of {name}"))
-            .or_else(|| unknown.map(|name| format!("{name} is not known")))
-            .or_else(|| self.doubts.iter().find_map(|doubt| doubt.wrong(known)))
-            .or_else(|| no_share.map(|bound| format!("told_from: {bound} is no probability")))
+        match bounds.find(|bound| !(0.0..=1.0).contains(bound)) {
+            Some(bound) => Err(format!("told_from: {bound} is no probability")),
+            None => Ok(()),
+        }
     }
 
     fn terms(&self, features: &Features) -> Vec<(&'static str, f64, f64)> {

@@ -32,7 +32,7 @@ pub fn best_of_rivals(shells: &[Shell]) -> Vec<&Shell> {
 
 /// The fits of proposals, best first, in their order; `None` of those that end in no box, and of those that need none: the first of
 /// those that lie upon each other are fitted before the rest, and where one of them is surely a box and holds what another promises,
-/// that comes to the same box or to less.
+/// that is taken to come to the same box or to less.
 pub fn fitted_in_turn(shells: &[&Shell], fit: impl Fn(&Shell) -> Option<FoundBox> + Sync) -> Vec<Option<FoundBox>> {
     let rivals = |i: usize| (0..i).filter(move |&j| are_rivals(shells[j], shells[i]));
     let (first, rest): (Vec<usize>, Vec<usize>) =

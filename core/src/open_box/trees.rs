@@ -10,19 +10,6 @@ pub enum Tree {
     Split(String, f64, Box<Tree>, Box<Tree>),
 }
 
-impl Tree {
-    /// The names of the features that it asks for.
-    pub fn features(&self) -> Vec<&str> {
-        match self {
-            Self::Leaf(_) => Vec::new(),
-            Self::Split(name, _, up_to, above) => {
-                let below = up_to.features().into_iter().chain(above.features());
-                std::iter::once(name.as_str()).chain(below).collect()
-            }
-        }
-    }
-}
-
 /// Trees that ask for features by their numbers: a box is judged dozens of times in a frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Forest {
@@ -37,26 +24,27 @@ enum Node {
 }
 
 impl Forest {
-    /// `None` where a tree asks for a feature that is not among the known ones.
-    pub fn new(trees: &[Tree], known: &[&str]) -> Option<Self> {
+    /// # Errors
+    /// The name of a feature that a tree asks for and that is not among the known ones.
+    pub fn new(trees: &[Tree], known: &[&str]) -> Result<Self, String> {
         let mut out = Self::default();
         for tree in trees {
             let root = out.add(tree, known)?;
             out.roots.push(root);
         }
-        Some(out)
+        Ok(out)
     }
 
-    fn add(&mut self, tree: &Tree, known: &[&str]) -> Option<usize> {
+    fn add(&mut self, tree: &Tree, known: &[&str]) -> Result<usize, String> {
         let node = match tree {
             Tree::Leaf(value) => Node::Leaf(*value),
             Tree::Split(name, bound, up_to, above) => {
-                let feature = known.iter().position(|other| other == name)?;
+                let feature = known.iter().position(|other| other == name).ok_or_else(|| name.clone())?;
                 Node::Split { feature, bound: *bound, up_to: self.add(up_to, known)?, above: self.add(above, known)? }
             }
         };
         self.nodes.push(node);
-        Some(self.nodes.len() - 1)
+        Ok(self.nodes.len() - 1)
     }
 
     /// The sum of all trees at these values of the known features.
@@ -83,11 +71,10 @@ mod tests {
     #[test]
     fn trees_are_followed_to_their_leaves() {
         let tree: Tree = serde_json::from_str(r#"["a", 0.5, -1.0, ["b", 2, 0.25, 3]]"#).unwrap();
-        assert_eq!(tree.features(), ["a", "b"]);
         let forest = Forest::new(&[tree.clone(), Tree::Leaf(0.5)], &["b", "a"]).unwrap();
         let at = |a: f64, b: f64| forest.sum(&[b, a]);
         assert_eq!([at(0.5, 9.0), at(0.6, 2.0), at(0.6, 2.1)], [-0.5, 0.75, 3.5]);
-        assert_eq!(Forest::new(&[tree], &["a"]), None);
+        assert_eq!(Forest::new(&[tree], &["a"]), Err("b".into()));
     }
 
     #[test]
