@@ -81,7 +81,7 @@ impl<const COUNT: usize> Block<COUNT> {
     }
 
     /// Into the sums of all parts, as side `k`'s.
-    pub fn scatter(mut self, sums: &mut Linearized, k: usize) {
+    pub fn scatter(&mut self, sums: &mut Linearized, k: usize) {
         self.add_waiting();
         sums.cost += self.cost;
         for i in 0..COUNT {

@@ -37,14 +37,14 @@ const fn order() -> [usize; COUNT] {
 
 /// A lower triangle, each row kept from its first entry that is not 0: the factor has none before either.
 pub struct Factor {
-    rows: Box<[[f64; COUNT]; COUNT]>,
+    rows: Box<[[f64; COUNT]]>,
     first: [usize; COUNT],
 }
 
 impl Factor {
     /// Of the curvature (lower triangle) with its diagonal raised by that share; `None` where it is not positive definite.
     pub fn new(curvature: &DMatrix<f64>, damping: f64) -> Option<Self> {
-        let mut out = Self { rows: Box::new([[0.0; COUNT]; COUNT]), first: [0; COUNT] };
+        let mut out = Self { rows: vec![[0.0; COUNT]; COUNT].into(), first: [0; COUNT] };
         for i in 0..COUNT {
             let row = &mut out.rows[i];
             for j in 0..=i {

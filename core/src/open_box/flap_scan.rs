@@ -159,10 +159,16 @@ impl<'a> Board<'a> {
         self.hinge.ask_row(&self.rows, middle, normal, self.range.model_m, &self.columns_m)
     }
 
+    /// More places on the board than through it; where that can no longer be, it is not asked by how many less.
     fn near_score(&self, angle: f64) -> f64 {
         let (way, normal) = self.hinge.directions(angle);
-        let mut score = 0.0;
-        for reach in self.range.reaches().filter(|reach| *reach < self.range.longest_m) {
+        let reaches = || self.range.reaches().filter(|reach| *reach < self.range.longest_m);
+        let (mut score, mut left) = (0.0, reaches().count() * self.columns_m.len());
+        for reach in reaches() {
+            if score + left as f64 <= 0.0 {
+                break;
+            }
+            left -= self.columns_m.len();
             for (says, _) in self.ask(&(self.hinge.middle + way * reach), &normal) {
                 score += match says {
                     Says::Met => 1.0,

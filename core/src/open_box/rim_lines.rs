@@ -12,14 +12,26 @@ const STEP_SIGMAS: f64 = 5.0;
 /// Beside an edge the sensor's shadow has no readings: so many pixels are stepped over.
 const SHADOW_PX: usize = 5;
 
+/// Ranges in single precision are off by less, metres.
+const SINGLE_M: f32 = 1e-5;
+
 /// Readings that something further away is seen right beside, in the level frame, no higher than a rim may be.
 pub fn edge_points(sight: &Sight) -> Vec<Vec3> {
+    let eye = sight.eye.cast::<f32>();
+    let ranges_m: Vec<f32> = sight.points.iter().map(|p| (nalgebra::Vector3::from(*p) - eye).norm()).collect();
+    // Of nearly all readings the four neighbours, none of them missing, tell at once that nothing lies behind.
+    let goes_on = |index: usize, column: usize, row: usize| {
+        let is_within = (1..sight.width - 1).contains(&column) && (1..sight.height - 1).contains(&row);
+        let most_m = ranges_m[index] + STEP_M as f32 - SINGLE_M;
+        let beside = || [index - 1, index + 1, index - sight.width, index + sight.width];
+        is_within && beside().iter().all(|&other| ranges_m[other] <= most_m)
+    };
     let mut out = Vec::new();
     for row in 0..sight.height {
         for column in 0..sight.width {
             let index = row * sight.width + column;
             let z = f64::from(sight.points[index][2]);
-            if !(HEIGHTS_M[0]..=HEIGHTS_M[1]).contains(&z) {
+            if !(HEIGHTS_M[0]..=HEIGHTS_M[1]).contains(&z) || goes_on(index, column, row) {
                 continue;
             }
             let Some(point) = sight.reading(index) else { continue };
@@ -126,8 +138,9 @@ const MOST_ASKED: usize = 2000;
 /// Places and heights that an edge's points share, metres, and how many of them there are: others fall in with them.
 const CELL_M: [f64; 2] = [0.006, 0.010];
 const CELLS: [usize; 2] = [256, 64];
+const _: () = assert!(CELLS[0].is_power_of_two() && CELLS[1].is_power_of_two() && MOST_ASKED <= u16::MAX as usize);
 /// So many points in a cell make no line.
-const BY_CHANCE: u32 = 6;
+const BY_CHANCE: u16 = 6;
 const MOST_YAWS: usize = 3;
 const NEAR_RAD: f64 = 0.06;
 /// Of the best direction's count.
@@ -137,24 +150,24 @@ const LEAST_SHARE: f64 = 0.3;
 /// first.
 pub fn yaws_of_edges(points: &[Vec3]) -> Vec<f64> {
     let stride = points.len().div_ceil(MOST_ASKED).max(1);
-    let asked: Vec<&Vec3> = points.iter().step_by(stride).collect();
     let steps = (std::f64::consts::FRAC_PI_2 / TURN_RAD).round() as usize;
-    let mut counts = vec![0_u32; CELLS[0] * CELLS[1]];
+    let number = |at: f64, cells: usize| at.floor() as i32 as usize & (cells - 1);
+    let placed = |p: &Vec3| ([p.x / CELL_M[0], p.y / CELL_M[0]], number(p.z / CELL_M[1], CELLS[1]));
+    let asked: Vec<([f64; 2], usize)> = points.iter().step_by(stride).map(placed).collect();
+    let mut counts = vec![0_u16; CELLS[0] * CELLS[1]];
     let mut of_turn = |turn: usize| -> f64 {
         let (sin, cos) = (turn as f64 * TURN_RAD).sin_cos();
-        let mut sum = 0.0;
+        let mut squares = 0_u64;
         for (x, y) in [(cos, sin), (-sin, cos)] {
             counts.fill(0);
-            for p in &asked {
-                let place = ((p.x * x + p.y * y) / CELL_M[0]).floor() as isize;
-                let height = (p.z / CELL_M[1]).floor() as isize;
-                let cell = place.rem_euclid(CELLS[0] as isize) as usize * CELLS[1]
-                    + height.rem_euclid(CELLS[1] as isize) as usize;
-                counts[cell] += 1;
+            for (place, height) in &asked {
+                let count = &mut counts[number(place[0] * x + place[1] * y, CELLS[0]) * CELLS[1] + height];
+                // From n squared to (n + 1) squared.
+                squares += if *count < BY_CHANCE { 0 } else { 2 * u64::from(*count - BY_CHANCE) + 1 };
+                *count += 1;
             }
-            sum += counts.iter().map(|&count| f64::from(count.saturating_sub(BY_CHANCE)).powi(2)).sum::<f64>();
         }
-        sum
+        squares as f64
     };
     let votes: Vec<f64> = (0..steps).map(&mut of_turn).collect();
     let mut order: Vec<usize> = (0..steps).filter(|&turn| votes[turn] > 0.0).collect();

@@ -2,9 +2,12 @@
 
 /// Readings may lie so many pixels beside where the projection has them.
 const MARGIN_PX: f64 = 2.0;
-/// Of a box's corners, numbered by bits, those that an edge joins.
-const EDGES: [[usize; 2]; 12] =
-    [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+const AXES: usize = 3;
+const EDGES: usize = 12;
+
+fn next(axis: usize) -> usize {
+    (axis + 1) % AXES
+}
 
 /// An edge in the image, its upper end first.
 #[derive(Debug, Clone, Copy)]
@@ -28,13 +31,35 @@ impl Line {
 /// A box's outline in the image: what its eight corners span.
 pub struct Silhouette {
     corners: [[f64; 2]; 8],
-    lines: [Line; 12],
+    lines: [Line; EDGES],
+    /// Of the lines, those at which a face that is seen meets one that is not: no other bounds the outline.
+    count: usize,
 }
 
 impl Silhouette {
     /// Of corners in pixels; bit `a` of a corner's number is its end along axis `a`.
     fn new(corners: [[f64; 2]; 8]) -> Self {
-        Self { corners, lines: EDGES.map(|[a, b]| Line::new(corners[a], corners[b])) }
+        // The face at an axis' lower end shows one way round, that at its upper end the other, or else its back.
+        let is_seen: [[bool; 2]; AXES] = std::array::from_fn(|axis| {
+            let turn = |end: usize| {
+                let from = end << axis;
+                let [a, b, c] = [from, from | 1 << next(axis), from | 1 << next(next(axis))].map(|n| corners[n]);
+                (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            };
+            [turn(0) > 0.0, turn(1) < 0.0]
+        });
+        let mut out = Self { corners, lines: [Line::new(corners[0], corners[0]); EDGES], count: 0 };
+        for axis in 0..AXES {
+            let (b, c) = (next(axis), next(next(axis)));
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                if is_seen[b][i] != is_seen[c][j] {
+                    let from = i << b | j << c;
+                    out.lines[out.count] = Line::new(corners[from], corners[from | 1 << axis]);
+                    out.count += 1;
+                }
+            }
+        }
+        out
     }
 
     /// Of the pixels that see the corners, told by their ends along the axes; `None` where one of them lies behind the camera.
@@ -58,7 +83,7 @@ impl Silhouette {
     pub fn columns(&self, row: f64) -> [f64; 2] {
         let (above, below) = (row - MARGIN_PX, row + MARGIN_PX);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for line in &self.lines {
+        for line in &self.lines[..self.count] {
             if line.to_row < above || line.from[1] > below {
                 continue;
             }
@@ -80,7 +105,7 @@ mod tests {
     #[test]
     fn what_lies_between_corners_lies_between_its_columns() {
         let mut random = SplitMix64::new(7);
-        let mut cases = 0;
+        let (mut cases, mut of_edges) = (0, 0);
         for turn in 0..200 {
             let mut draw = |low: f64, high: f64| low + random.unit() * (high - low);
             // A box before a pinhole camera, sometimes level with the rows.
@@ -104,11 +129,23 @@ mod tests {
                 assert!(top <= v && v <= bottom);
                 cases += 1;
             }
+            // The other edges lie within.
+            assert!(outline.count <= 6);
+            let ends = || (0..8).flat_map(|from| [0, 1, 2].map(|axis| [from, from | 1 << axis]));
+            let all = ends().filter(|[from, to]| from != to).map(|ends| ends.map(|number| outline.corners[number]));
+            for [[u, v], [x, y]] in all {
+                for share in [0.0, 0.3, 0.7, 1.0] {
+                    let (at, row) = (u + share * (x - u), v + share * (y - v));
+                    let [low, high] = outline.columns(row);
+                    assert!(low + MARGIN_PX <= at + 1e-6 && at <= high - MARGIN_PX + 1e-6, "{low} {at} {high}");
+                    of_edges += 1;
+                }
+            }
             for row in [top - 3.0, bottom + 3.0] {
                 let [low, high] = outline.columns(row);
                 assert!(low > high);
             }
         }
-        assert_eq!(cases, 10_000);
+        assert_eq!((cases, of_edges), (10_000, 9600));
     }
 }
