@@ -24,6 +24,9 @@ use crate::perception::Scene;
 /// How well a proposal's lengths are known.
 const PROPOSED_SIGMA_M: f64 = 0.01;
 
+/// Of some 1200 boxes that were so improbable once fitted one came to 0.3 with the second fit, and of those chosen none to 0.03.
+const HOPELESS_ONCE_FITTED: f64 = 0.003;
+
 /// What was found in one frame.
 #[derive(Debug, Default)]
 pub struct Found {
@@ -62,7 +65,8 @@ pub fn find(
         FoundBox { features, probability, size: best_match(&one.solution, sizes), ..one }
     };
     let rivals = best_of_rivals(&shells);
-    let fit = |shell: &Shell| grow(sight, &body_of(&shell.proposal), &shell.flaps, settings).map(weighed);
+    let is_hopeful = |once: &FoundBox| judgement.is_none() || weighed(once.clone()).probability >= HOPELESS_ONCE_FITTED;
+    let fit = |shell: &Shell| grow(sight, &body_of(&shell.proposal), &shell.flaps, settings, is_hopeful).map(weighed);
     // Nobody says that one is surely a box where nobody judges.
     let of_shells: Vec<Option<FoundBox>> = match judgement {
         Some(_) => fitted_in_turn(&rivals, fit),
@@ -72,7 +76,7 @@ pub fn find(
         let input_from_object = sight.input_from_level.inverse() * body.input_from_object;
         let body = FittedBody { input_from_object, ..body.clone() };
         let flaps = scan_flaps(sight, &body, COARSE_M, COARSE_SCAN);
-        grow(sight, &body, &flaps, settings).map(weighed)
+        grow(sight, &body, &flaps, settings, is_hopeful).map(weighed)
     });
     let of_assignments: Vec<Option<FoundBox>> = of_assignments.collect();
     let found = of_shells.into_iter().chain(of_assignments).flatten().collect();
