@@ -71,6 +71,7 @@ def _record(problem: Problem, way: str, crease: str, seen: Seen) -> Record:
         most_force_n=0.0 if run is None else run.max_force_n,
         slid_m=0.0 if run is None else run.box_slid_m,
         unwanted=0 if run is None else len(run.unwanted),
+        stopped=None if run is None or run.stopped is None else run.stopped.line(),
     )
 
 

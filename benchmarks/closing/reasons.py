@@ -12,10 +12,12 @@ UNLIKE = (
 """What differs from flap to flap, and what is told in its place."""
 
 
-def kind_of(status: str, reason: str | None, failure: str | None) -> str:
+def kind_of(status: str, reason: str | None, failure: str | None, stopped: str | None = None) -> str:
     """Why a flap is not held: the planner's words without names and numbers, or what the run of its plan was."""
     if status == "planned":
-        return "planned, but the run proves nothing" if failure else "planned, but not held"
+        if failure:
+            return "planned, but the run proves nothing"
+        return "planned, but the arm was stopped" if stopped else "planned, but not held"
     alike = reason or "not told"
     for pattern, instead in UNLIKE:
         alike = re.sub(pattern, instead, alike)

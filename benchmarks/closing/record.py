@@ -43,6 +43,8 @@ class Record(msgspec.Struct, frozen=True):
     slid_m: float
     unwanted: int
     """Pairs that touched and should not have."""
+    stopped: str | None = None
+    """Where the arm was stopped, since it pressed too hard; None where it was not."""
 
 
 class Limits(msgspec.Struct, frozen=True):

@@ -178,7 +178,7 @@ def _reasons(found: list[Record], limits: dict[int, Limits]) -> Table:
             for flap in record.flaps:
                 if feasible(record, flap) and not flap.held:
                     counted = counts.setdefault(
-                        kind_of(flap.status, flap.reason, record.failure), [0] * (2 * len(creases))
+                        kind_of(flap.status, flap.reason, record.failure, record.stopped), [0] * (2 * len(creases))
                     )
                     counted[2 * creases.index(record.crease) + flap.farthest] += 1
     rows: list[tuple[Cell, ...]] = [

@@ -31,8 +31,8 @@ class Place(Protocol):
         """What the sensor sees now, in the same input frame each time."""
         ...
 
-    def act(self, plan: Plan, model: Model) -> None:
-        """Lets the arm follow a plan that was made on that model."""
+    def act(self, plan: Plan, model: Model) -> str | None:
+        """Lets the arm follow a plan that was made on that model; why it was stopped, None where it was not."""
         ...
 
 
@@ -117,8 +117,10 @@ def close_by_looking(
         plan = _next_flap(sight, robot, base_from_input, tries, planning)
         if plan is None:
             return Looked(tuple(steps), blind, "nothing is left that can be planned")
-        place.act(plan, sight.model)
+        stopped = place.act(plan, sight.model)
         steps.append(Step(sight.model, plan))
+        if stopped is not None:
+            return Looked(tuple(steps), blind, stopped)
         if plan.segments[-1].positions[-1] != plan.segments[0].positions[0]:
             return Looked(tuple(steps), blind, "the arm found no way back to where it looks from")
         seen = infer(place.look())

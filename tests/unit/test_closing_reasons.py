@@ -20,4 +20,8 @@ def test_reasons_that_differ_in_names_and_numbers_are_of_one_kind() -> None:
 def test_what_is_planned_is_told_by_its_run() -> None:
     asked = [kind_of("planned", None, failure) for failure in (None, "side_1 sank 1.63 mm into tuck_3")]
     assert asked == ["planned, but not held", "planned, but the run proves nothing"]
+    stopped = "stopped at 16.4 s, closing flap_2: finger_left pressed flap_2"
+    assert kind_of("planned", None, None, stopped) == "planned, but the arm was stopped"
+    assert kind_of("planned", None, "side_1 sank 1.63 mm into tuck_3", stopped) == asked[1]
+    assert kind_of("unreachable", None, None, stopped) == "unreachable: not told"
     assert kind_of("unreachable", None, None) == "unreachable: not told"

@@ -12,7 +12,15 @@ from closing.problems import Problem, camera_pose, draw_problem
 from boxwright import infer
 from boxwright.planning import plan_closing
 from boxwright.replanning import TRIES, close_by_looking
-from boxwright.simulation.physics import Arm, LiveBox, Session, crease_class, load_robot, modelled_box
+from boxwright.simulation.physics import (
+    Arm,
+    LiveBox,
+    PhysicsSettings,
+    Session,
+    crease_class,
+    load_robot,
+    modelled_box,
+)
 from boxwright.types import Cloud, Model
 
 ROBOT = "viper_s850"
@@ -25,11 +33,11 @@ def problem() -> Problem:
     return draw_problem(NUMBER)
 
 
-def _live(problem: Problem, base_from_input: np.ndarray) -> LiveBox:
+def _live(problem: Problem, base_from_input: np.ndarray, settings: PhysicsSettings | None = None) -> LiveBox:
     arm = Arm(load_robot(ROBOT))
     box = modelled_box(problem.box, problem.model.up, np.eye(4))
     ready = np.radians(arm.robot.ready_deg)
-    return LiveBox(Session(box, arm, ready, crease_class("pre_broken")), base_from_input)
+    return LiveBox(Session(box, arm, ready, crease_class("pre_broken"), settings=settings), base_from_input)
 
 
 def _renumbered(problem: Problem, shift: int) -> Model:
@@ -87,6 +95,19 @@ def test_looking_closes_flap_by_flap_on_models_of_its_own_frames(problem: Proble
     assert anew >= 1
     flaps = live.session.verdict("pre_broken", "true").flaps
     assert sum(flaps[name].held for name in live.pushed) >= len(live.pushed) - 1
+
+
+def test_looking_ends_where_the_arm_was_stopped(problem: Problem) -> None:
+    """At a limit that any push passes."""
+    live = _live(problem, np.eye(4), PhysicsSettings(most_force_n=0.01))
+
+    def never(cloud: Cloud) -> Model:
+        raise AssertionError("a stopped arm does not look again")
+
+    looked = close_by_looking(problem.model, ROBOT, np.eye(4), live, never)
+    assert len(looked.steps) == 1
+    assert live.session.stopped is not None
+    assert looked.ended == live.session.stopped.line()
 
 
 def test_looks_are_the_same_bits_again_and_differ_from_one_another(problem: Problem) -> None:

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+import msgspec
 import mujoco
 import numpy as np
 import pytest
 
 from boxwright.robots import load_robot as core_robot
 from boxwright.robots import robot_names
-from boxwright.simulation.physics import Arm, PhysicsSettings, crease_class, load_robot, simulate_closing, true_box
+from boxwright.simulation.physics import (
+    Arm,
+    Load,
+    PhysicsSettings,
+    Session,
+    crease_class,
+    load_robot,
+    simulate_closing,
+    true_box,
+)
 from boxwright.simulation.physics.commands import course_of, held
 from boxwright.simulation.physics.stage import Stage
 from boxwright.simulation.physics.world import World, build_world
@@ -121,6 +131,51 @@ def test_the_arm_pushes_a_flap_shut(arm: Arm) -> None:
     assert simulation.flaps["flap_1"].held
     assert simulation.max_force_n > 0.5
     assert np.degrees(simulation.max_joint_error_rad) < 0.5
+
+
+def test_an_arm_that_presses_too_hard_is_stopped_there(arm: Arm) -> None:
+    """A flap that lies on a flat box's base already is pushed on."""
+    flat = msgspec.structs.replace(carton(), height_m=0.05)
+    box = true_box(truth_of(flat, x_m=0.6, z_m=-0.1, yaw_rad=np.pi / 2), 0, np.eye(4))
+    segments = ScriptedArm(arm).follow(push_shut(box, "flap_1", -40.0, radius_m=0.011))
+    short, on = (
+        simulate_closing(box, arm, segments, load=Load(mass_kg=4.0), settings=settings).simulation
+        for settings in (PhysicsSettings(), PhysicsSettings(most_force_n=1e6))
+    )
+    stopped = short.stopped
+    assert stopped is not None
+    assert on.stopped is None
+    assert on.max_force_n > 1.2 * short.max_force_n
+    assert (stopped.flap, stopped.limit_n) == ("flap_1", PhysicsSettings().most_force_n)
+    assert stopped.pair in {("finger_left", "flap_1"), ("finger_right", "flap_1")}
+    assert stopped.limit_n < stopped.force_n <= short.max_force_n < 1.5 * stopped.limit_n
+    # On the flap's inner part, within the box's footprint and near its base.
+    np.testing.assert_allclose(stopped.at_m, [0.6, 0.08, -0.08], atol=0.03)
+    # It stays there: the rest of the course is not followed, but what was reached is judged.
+    assert short.simulated_s == pytest.approx(stopped.at_s + PhysicsSettings().rest_s, abs=0.01)
+    assert short.simulated_s < on.simulated_s - 1.0
+    assert short.failure is None
+    assert not short.unwanted
+    assert on.flaps["flap_1"].closed
+    assert not short.flaps["flap_1"].closed
+    assert short.flaps["flap_1"].after_rad == pytest.approx(short.flaps["flap_1"].pushed_to_rad, abs=0.02)
+    line = stopped.line()
+    for part in ("flap_1", stopped.pair[0], f"{stopped.force_n:.0f} N", "more than 250 N", "-0.079"):
+        assert part in line, line
+
+
+def test_a_stopped_arm_follows_nothing_any_more(arm: Arm) -> None:
+    flat = msgspec.structs.replace(carton(), height_m=0.05)
+    box = true_box(truth_of(flat, x_m=0.6, z_m=-0.1, yaw_rad=np.pi / 2), 0, np.eye(4))
+    segments = ScriptedArm(arm).follow(push_shut(box, "flap_1", -40.0, radius_m=0.011))
+    session = Session(box, arm, np.array(segments[0].positions[0]), crease_class("ordinary"), load=Load(mass_kg=4.0))
+    session.follow(segments)
+    before = session.verdict("ordinary", "true")
+    session.follow(segments)
+    after = session.verdict("ordinary", "true")
+    assert before.stopped is not None
+    assert after.simulated_s == before.simulated_s
+    assert after.flaps == before.flaps
 
 
 def test_the_arm_s_mjcf_reads_back_as_the_same_arm(arm: Arm) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 from closing.creases import told
 from closing.problems import draw_problem
 
@@ -41,6 +42,12 @@ LEFT = (1134, 165, "flap_1")
 """A flap of a high box, beside a tuck: after all others the widest search finds how."""
 BY_THE_TIP = (1134, 68, "flap_3")
 """One that is held with the very tip alone, or near its hinge."""
+JAMMING = ((1142, 218), (1141, 110))
+"""Boxes out of square: a flap came down steeply on the free edge of one that sprang up, and the arm dragged them."""
+ON_A_LID = (1142, 70, ("flap_1", "flap_3"))
+"""Short flaps over the corners of a lid that lies lower than it is told."""
+ON_THE_BASE = (1142, 113, "flap_3")
+"""A flap of a flat box that meets its base before it is as far beyond closed as its crease gives back."""
 STRANDED = {7: 2, 12: 1, 13: 2, 25: 1}
 """By number: boxes of seed 2013, and to how many flaps an arm that knows straight lines alone finds no way."""
 
@@ -52,6 +59,8 @@ USUAL = {"beams": [16, 50]}
 ONE_SEARCH = {"beams": [16]}
 PUSHED_HOME = {"least_lay_rad": 9.0}
 AT_ONE_GO = {"fork": {"most_stages": 1}}
+GENTLE_N = 60.0
+"""No push of a flap that goes where it should takes more."""
 
 
 def _plan(seed: int, number: int, crease: str, settings: dict[str, Any] | None = None) -> Plan:
@@ -184,3 +193,35 @@ def test_a_flap_that_would_spring_up_off_those_it_lies_on_is_left_open() -> None
     assert (plan.flaps[name].status, len(plan.order)) == ("blocked", 3)
     assert "come to lie on the ends of flaps that overlap" in (plan.flaps[name].reason or "")
     assert _all_held(seed, number, "ordinary", plan)
+
+
+def test_flaps_that_would_jam_on_the_free_edge_of_another_wait() -> None:
+    for seed, number in JAMMING:
+        plan = _plan(seed, number, "ordinary")
+        run = simulate(plan, draw_problem(number, seed).model, crease="ordinary").simulation
+        assert len(plan.order) >= 3, f"problem {number}"
+        assert all(run.flaps[name].held for name in plan.order), f"problem {number}"
+        assert run.max_force_n < GENTLE_N, f"problem {number}"
+        assert run.box_slid_m < 0.005, f"problem {number}"
+
+
+def test_flaps_on_a_lid_are_pressed_a_little_further_where_they_come_to_rest_closed_for_it() -> None:
+    seed, number, names = ON_A_LID
+    plan = _plan(seed, number, "ordinary")
+    run = simulate(plan, draw_problem(number, seed).model, crease="ordinary").simulation
+    assert run.failure is None
+    assert len(plan.order) == 4
+    for name in names:
+        assert (plan.flaps[name].rest_rad or 0.0) == pytest.approx(np.radians(14.0), abs=0.01)
+        assert run.flaps[name].held
+        assert run.flaps[name].end_rad < np.radians(15.0)
+    assert run.max_force_n < GENTLE_N
+
+
+def test_a_flap_of_a_flat_box_is_not_pressed_onto_its_base() -> None:
+    seed, number, name = ON_THE_BASE
+    plan = _plan(seed, number, "ordinary")
+    run = simulate(plan, draw_problem(number, seed).model, crease="ordinary").simulation
+    assert run.flaps[name].held
+    assert (run.flaps[name].pushed_to_rad or 0.0) < 0.0
+    assert run.max_force_n < GENTLE_N

@@ -14,11 +14,13 @@ const GRAZE_M: f64 = 0.006;
 const GRAZE_SHARE: f64 = 0.1;
 /// Between two angles at which boards are held against each other.
 const STEP_RAD: f64 = 0.06;
-/// The ends of a flap that has sprung up give way by this much to one that comes down beside them. Steeper than this it presses them
-/// aside rather than down: flap on flap has friction (0.3, as physics assumes it), and cannot slide where its tangent is steeper
-/// than 1 / friction.
+/// The ends of a flap that has sprung up give way by this much to one that comes down beside them, to its free edge. Steeper than
+/// this it presses them aside rather than down: flap on flap has friction (0.3, as physics assumes it), and cannot slide where its
+/// tangent is steeper than 1 / friction, at 73.3 degrees; where flaps rest is told no better than what is added to that.
 const GIVING_END_M: f64 = 0.015;
-const JAM_RAD: f64 = 1.279;
+const JAM_RAD: f64 = 1.2915;
+/// A board that tapers ends at its free edge as it does half way, this much further out at most: physics has it as a stair.
+const STAIR_M: f64 = 0.003;
 /// Of two neighbours the one that comes below this first goes under the other, and its ends give way (docs/physics.md): counted on
 /// short of the 15 mm there, as upright boards that meet by a hair jam.
 const DOWN_RAD: f64 = 1.047;
@@ -42,17 +44,16 @@ pub fn met(
         others.flat_map(|(k, other)| beside(moving, angles_rad[flap], other, angles_rad[k], settings)).collect();
     let from_rad = angles_rad[flap];
     let steps = ((from_rad - to_rad).abs() / STEP_RAD).ceil().max(1.0) as usize;
-    for step in 1..=steps {
-        let angle_rad = from_rad + (to_rad - from_rad) * step as f64 / steps as f64;
-        if (from_rad - angle_rad).abs() < START_RAD {
-            continue;
-        }
+    let steps = (1..=steps).map(|step| (from_rad + (to_rad - from_rad) * step as f64 / steps as f64, false));
+    // What lies stays there until it is pressed: what has met it by the angle where boards jam met it where it is steeper.
+    let jamming = std::iter::once((JAM_RAD.max(to_rad), true)).filter(|_| from_rad > JAM_RAD);
+    let asked = jamming.chain(steps);
+    for (angle_rad, of_lying) in asked.filter(|(angle_rad, _)| (from_rad - angle_rad).abs() >= START_RAD) {
         let corners = moving.corners(angle_rad);
         let graze_m = GRAZE_M.min(GRAZE_SHARE * moving.length_m());
         let (whole, inner) = (shortened(&corners, GRAZE_M, graze_m), shortened(&corners, GOING_UNDER_END_M, 0.0));
-        let counts = |other: &&Beside| angle_rad > JAM_RAD || !other.gives_way;
         let meets = |other: &Beside| quads_cross(if other.is_over { &inner } else { &whole }, &other.corners);
-        if let Some(other) = others.iter().filter(counts).find(|other| meets(other)) {
+        if let Some(other) = others.iter().filter(|other| other.gives_way == of_lying).find(|other| meets(other)) {
             return Some(Obstacle::Boards { flap: moving.name.clone(), other: other.name.to_string() });
         }
     }
@@ -79,7 +80,7 @@ fn beside<'a>(
 ) -> Vec<Beside<'a>> {
     let gives_way = at_rad <= settings.lying_rad;
     if gives_way {
-        let corners = shortened(&other.corners(at_rad), GIVING_END_M, GIVING_END_M);
+        let corners = giving_ends(&other.corners(at_rad));
         return vec![Beside { name: &other.name, corners, gives_way, is_over: false }];
     }
     let are_neighbours = !are_opposite(moving, other);
@@ -107,6 +108,14 @@ fn shortened(corners: &[Vec3; 4], ends_m: f64, edges_m: f64) -> [Vec3; 4] {
         let (along, across) = if k % 2 == 0 { (k + 1, k + 3) } else { (k + 3, k + 1) };
         corners[k] + toward(along, ends_m) + toward(across, edges_m)
     })
+}
+
+/// What does not give way of a board that lies: all but its ends, those of its free edge a stair's step further out.
+fn giving_ends(corners: &[Vec3; 4]) -> [Vec3; 4] {
+    let [near_m, far_m] = [corners[1] - corners[0], corners[3] - corners[2]].map(|edge| edge.norm());
+    let step_m = ((near_m - far_m) / 4.0).clamp(0.0, STAIR_M);
+    let (near, far) = (shortened(corners, GIVING_END_M, 0.0), shortened(corners, GIVING_END_M - step_m, 0.0));
+    [near[0], near[1], far[2], far[3]]
 }
 
 /// Do two flaps hang on sides across from one another?
@@ -223,6 +232,11 @@ mod tests {
 
     /// A box of 0.4 by 0.3 by 0.2 m with flaps upright: so much narrower than their sides at each end, and so long.
     fn carton(narrower_m: f64, lengths_m: [f64; 4]) -> BoxProblem {
+        tapered(narrower_m, 0.0, lengths_m)
+    }
+
+    /// The same with flaps that much narrower again at each end of their free edges.
+    fn tapered(narrower_m: f64, taper_m: f64, lengths_m: [f64; 4]) -> BoxProblem {
         let rim = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]];
         let mut sides = Vec::new();
         let mut flaps = Vec::new();
@@ -233,13 +247,14 @@ mod tests {
             };
             let length_m = f64::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
             let (start, end) = (narrower_m / length_m, 1.0 - narrower_m / length_m);
+            let taper = taper_m / length_m;
             let side = json!({"name": format!("side_{k}"), "corners": [at(0.0, 0.2), at(1.0, 0.2), at(1.0, 0.0), at(0.0, 0.0)]});
             let top = 0.2 + lengths_m[k];
             let along: [f64; 3] =
                 std::array::from_fn(|i| if i == 2 { 0.0 } else { (ends[1][i] - ends[0][i]) / length_m });
             let flap = json!({
                 "name": format!("flap_{k}"), "side": format!("side_{k}"), "standing": "seen", "origin": at(0.5, 0.2), "axis": along,
-                "position_rad": std::f64::consts::FRAC_PI_2, "corners": [at(start, 0.2), at(end, 0.2), at(end, top), at(start, top)],
+                "position_rad": std::f64::consts::FRAC_PI_2, "corners": [at(start, 0.2), at(end, 0.2), at(end - taper, top), at(start + taper, top)],
             });
             sides.push(side);
             flaps.push(flap);
@@ -300,14 +315,38 @@ mod tests {
         let settings = PlanningSettings::default();
         let carton = carton(0.004, [0.2; 4]);
         let upright = std::f64::consts::FRAC_PI_2;
-        let meets = |neighbour_rad: f64| met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings);
-        // Ends 0.019 m from the corner that stand up by 0.01 and 0.046 m are met below 68 degrees, one of 0.075 m above 75.
-        let counted =
-            [(0.05, false), (0.25, false), (0.42, true)].map(|(neighbour_rad, jams)| match meets(neighbour_rad) {
-                Some(Obstacle::Boards { other, .. }) => assert!(jams && other == "flap_1", "{neighbour_rad}: {other}"),
-                _ => assert!(!jams, "{neighbour_rad}"),
-            });
-        assert_eq!(counted.len(), 3);
+        let meets = |from_rad: f64, neighbour_rad: f64| {
+            met(&carton, &[from_rad, neighbour_rad, upright, upright], 0, 0.0, &settings)
+        };
+        // Ends 0.019 m from the corner whose free edges stand up by 0.01, 0.049 and 0.0639 m are met at 28, 69 and 73.4 degrees, those
+        // of 0.0695 and 0.082 m at 74.7 and 77: steps that the flap comes down in pass over what is between.
+        let asked = [(0.05, false), (0.25, false), (0.325, false), (0.355, true), (0.42, true)];
+        let counted = asked.map(|(neighbour_rad, jams)| {
+            for from_rad in (0..30).map(|k| upright + 0.05 * f64::from(k)) {
+                match meets(from_rad, neighbour_rad) {
+                    Some(Obstacle::Boards { other, .. }) => {
+                        assert!(jams && other == "flap_1", "{from_rad} {neighbour_rad}: {other}");
+                    }
+                    _ => assert!(!jams, "{from_rad} {neighbour_rad}"),
+                }
+            }
+            // What is below already meets nothing there.
+            assert!(meets(1.2, neighbour_rad).is_none());
+        });
+        assert_eq!(counted.len(), 5);
+    }
+
+    #[test]
+    fn the_free_edge_of_a_board_that_tapers_counts_a_little_wider() {
+        let (settings, upright) = (PlanningSettings::default(), std::f64::consts::FRAC_PI_2);
+        // Ends that give way 0.025 m from the corner, 3 mm of which do not count: 0.0797 m are met at 74.6 degrees, not 72.6, and
+        // 0.0723 m at 73.1.
+        let counted = [(0.41, true), (0.37, false)].map(|(neighbour_rad, jams)| {
+            let problem = tapered(0.004, 0.006, [0.2; 4]);
+            let angles_rad = [upright, neighbour_rad, upright, upright];
+            assert_eq!(met(&problem, &angles_rad, 0, 0.0, &settings).is_some(), jams, "{neighbour_rad}");
+        });
+        assert_eq!(counted.len(), 2);
     }
 
     #[test]

@@ -13,13 +13,19 @@ const PRESSED_SHARE: f64 = 0.8;
 /// Boards that cross at an edge crush it: what is left of their thickness there, as physics has it (docs/physics.md).
 const CRUSHED_M: f64 = 0.002;
 
+/// A flap that is pressed onto a stack to come to rest closed is aimed this far within that, as stacks rest a little higher than told,
+/// and goes down by so much more for it at the most.
+const HOME_RAD: f64 = 0.0175;
+const MOST_PRESSED_RAD: f64 = 0.0611;
+
 impl<G: Guard> Closer<'_, G> {
     /// How far a flap is pushed: less where it comes to lie on others or carries a tuck.
     pub fn hold_rad(&self, flap: usize, moment: &Moment) -> f64 {
         let settings = self.settings;
         let below = self.lies_on(flap, moment);
-        if let Some(propped_rad) = self.propped_rad(flap, &below, moment) {
-            return propped_rad.max(settings.short_on_stacks_rad);
+        if let Some((propped_rad, is_hard)) = self.propped_rad(flap, &below, moment) {
+            let hold_rad = propped_rad.max(settings.short_on_stacks_rad);
+            return if is_hard { hold_rad } else { self.pressed_home_rad(flap, hold_rad) };
         }
         if !below.is_empty() || !self.problem.flaps[flap].tucks.is_empty() {
             return settings.short_on_others_rad;
@@ -27,7 +33,22 @@ impl<G: Guard> Closer<'_, G> {
         let beyond_rad = self.load.folds[flap].return_rad - settings.rest_aim_rad;
         let hold_rad = -beyond_rad.clamp(0.0, settings.most_overclose_rad);
         if stopped_by_rims(self.problem, flap, hold_rad, settings) {
-            settings.short_on_rims_rad
+            return settings.short_on_rims_rad;
+        }
+        // Not onto the base of a flat box.
+        let steps = ((settings.short_on_rims_rad - hold_rad) / settings.sample_rad).ceil().max(0.0) as usize;
+        let mut holds = (0..steps).map(|step| hold_rad + step as f64 * settings.sample_rad);
+        holds.find(|&rad| !stopped_by_box(self.problem, flap, rad, settings)).unwrap_or(settings.short_on_rims_rad)
+    }
+
+    /// Of a push that ends on a stack that still gives way: a little further down where the flap comes to rest closed for it. Beyond
+    /// closed it counts as closed only where it still touches what it was pressed onto, which springs up less than it does.
+    fn pressed_home_rad(&self, flap: usize, hold_rad: f64) -> f64 {
+        let (settings, fold) = (self.settings, &self.load.folds[flap]);
+        let home_rad = fold.held_rad(settings.closed_rad - HOME_RAD);
+        let is_near = fold.rest_rad(hold_rad) > settings.closed_rad && hold_rad - home_rad <= MOST_PRESSED_RAD;
+        if is_near {
+            hold_rad.min(home_rad)
         } else {
             hold_rad
         }
@@ -67,8 +88,8 @@ impl<G: Guard> Closer<'_, G> {
     }
 
     /// Where a flap comes to lie on those of `below` that overlap the one across from them, or itself: boards on boards, which give
-    /// way no further. None where there are none.
-    fn propped_rad(&self, flap: usize, below: &[usize], moment: &Moment) -> Option<f64> {
+    /// way no further, and whether what stops it lies on the rims itself. None where there are none.
+    fn propped_rad(&self, flap: usize, below: &[usize], moment: &Moment) -> Option<(f64, bool)> {
         let flaps = &self.problem.flaps;
         let lies_over = |a: usize, b: usize| are_opposite(&flaps[a], &flaps[b]) && overlap_closed(&flaps[a], &flaps[b]);
         let stacked = |k: usize| lies_over(flap, k) || below.iter().any(|&other| lies_over(k, other));
@@ -76,9 +97,10 @@ impl<G: Guard> Closer<'_, G> {
             let over_m = self.crossing_m(flap, k);
             let soft_rad = propped_rad(&flaps[flap], &flaps[k], self.pressed_rad(k, moment), over_m, false);
             let hard_rad = self.lowest_rad(k, below, moment);
-            hard_rad.map_or(soft_rad, |at_rad| soft_rad.max(propped_rad(&flaps[flap], &flaps[k], at_rad, over_m, true)))
+            let hard_rad = hard_rad.map(|at_rad| propped_rad(&flaps[flap], &flaps[k], at_rad, over_m, true));
+            hard_rad.filter(|hard_rad| *hard_rad >= soft_rad).map_or((soft_rad, false), |hard_rad| (hard_rad, true))
         });
-        props.max_by(f64::total_cmp)
+        props.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// How far a flap that lies is pressed down by what comes down near its hinge.

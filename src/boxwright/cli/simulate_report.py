@@ -82,6 +82,7 @@ def _lines(simulation: Simulation) -> list[str]:
         f"{simulation.max_force_n:.1f} N; sank in {1e3 * simulation.max_penetration_m:.2f} mm",
         f"{simulation.simulated_s:.1f} s in {simulation.seconds:.1f} s, {speed:.0f} times real time",
     ]
+    lines += [simulation.stopped.line()] if simulation.stopped else []
     lines += [f"touched and should not have: {first}, {second}" for first, second in simulation.unwanted]
     lines += [f"warning: {warning}" for warning in simulation.warnings]
     return lines if simulation.failure is None else [*lines, f"proves nothing: {simulation.failure}"]

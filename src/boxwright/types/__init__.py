@@ -9,7 +9,7 @@ from boxwright.types.plan import FlapOutcome, FlapStatus, Plan, PlanSegment, Seg
 from boxwright.types.posed import PosedCloud, PosedFile
 from boxwright.types.robot import Gripper, Opw, Place, RobotBox, RobotCapsule, RobotFile, RobotJoint, RobotLink
 from boxwright.types.segments import Segment, Segmentation
-from boxwright.types.simulation import FlapVerdict, Simulation
+from boxwright.types.simulation import FlapVerdict, Simulation, Stop
 from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
 
 __all__ = [
@@ -51,6 +51,7 @@ __all__ = [
     "Simulation",
     "SmallestMove",
     "Source",
+    "Stop",
     "SupportPlane",
     "TrueBox",
     "TrueFace",

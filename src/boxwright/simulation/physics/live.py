@@ -47,8 +47,8 @@ class LiveBox:
         """The next frame as a cloud, seen from the camera."""
         return cloud_of(self.frame())
 
-    def act(self, plan: Plan, model: Model) -> None:
-        """Follows a plan that was made on a model of this box.
+    def act(self, plan: Plan, model: Model) -> str | None:
+        """Follows a plan that was made on a model of this box; where the arm was stopped, None where it was not.
 
         Raises ValueError where the planned object stands where the box does not.
         """
@@ -58,6 +58,7 @@ class LiveBox:
         segments = [_renamed(segment, shift) for segment in plan.segments]
         self._pushed += [segment.flap for segment in segments if segment.flap is not None and segment.kind == "push"]
         self.session.follow(segments)
+        return None if self.session.stopped is None else self.session.stopped.line()
 
 
 def cloud_of(frame: Frame) -> Cloud:

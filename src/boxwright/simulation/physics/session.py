@@ -19,8 +19,9 @@ from boxwright.simulation.physics.moved import box_as_it_stands, way_and_turn
 from boxwright.simulation.physics.settings import PhysicsSettings
 from boxwright.simulation.physics.stage import NOTHING, Stage
 from boxwright.simulation.physics.state import crease_moments_n_m, flap_positions_rad, world_from_body
+from boxwright.simulation.physics.watch import Tripped
 from boxwright.simulation.physics.world import Tool, build_world
-from boxwright.types import FlapVerdict, PlanSegment, Simulation
+from boxwright.types import FlapVerdict, PlanSegment, Simulation, Stop
 
 Array = NDArray[np.float64]
 
@@ -81,6 +82,7 @@ class Session:
         self._place, self._opening_m = start, opening_m
         self._seen: dict[str, _Seen] = {}
         self.warnings: list[str] = []
+        self.stopped: Stop | None = None
         self._settle()
         self._first = world_from_body(world, self.stage.data, world.box.root)
         self._before = flap_positions_rad(world, self.stage.data)
@@ -88,15 +90,20 @@ class Session:
     def follow(self, segments: Sequence[PlanSegment]) -> None:
         """One segment after the other, in the tool's joints; flaps are judged as the arm is done with them.
 
-        A flap that this box does not have is told in `warnings`; the tool moves all the same.
+        A flap that this box does not have is told in `warnings`; the tool moves all the same. A tool that pressed too
+        hard is stopped there, and follows nothing any more.
         """
         for number, segment in enumerate(segments):
+            if self.stopped is not None:
+                return
             self._follow_one(segment)
             after = segments[number + 1].flap if number + 1 < len(segments) else None
-            if segment.flap is not None and segment.flap != after:
+            if self.stage.watch.tripped is not None:
+                self._stop(self.stage.watch.tripped, segment.flap)
+            elif segment.flap is not None and segment.flap != after:
                 self._rest()
                 self._judge(segment.flap)
-        if segments and segments[-1].flap is None:
+        if segments and segments[-1].flap is None and self.stopped is None:
             self._rest()
 
     def box_now(self) -> BoardBox:
@@ -130,6 +137,7 @@ class Session:
             warnings=tuple(self.warnings),
             simulated_s=float(stage.data.time),
             seconds=time.perf_counter() - self._began,
+            stopped=self.stopped,
         )
 
     def _settle(self) -> None:
@@ -158,6 +166,22 @@ class Session:
             before_rad = self._seen[flap].pushed_to_rad
             self._seen[flap].pushed_to_rad = least_rad if before_rad is None else min(before_rad, least_rad)
 
+    def _stop(self, tripped: Tripped, flap: str | None) -> None:
+        """The tool stays where it is, pressing on what it presses on."""
+        self.stopped = Stop(
+            flap=flap,
+            pair=tripped.pair,
+            at_m=tripped.at_m,
+            at_s=tripped.at_s,
+            force_n=tripped.force_n,
+            limit_n=self.settings.most_force_n,
+        )
+        self._place = self.stage.tool_positions()
+        is_known = flap is not None and flap in self.stage.world.box.joint_of
+        self._rest(self._allowed(flap) if flap is not None and is_known else NOTHING)
+        if flap is not None:
+            self._judge(flap)
+
     def _knows(self, flap: str) -> bool:
         known = flap in self.stage.world.box.joint_of
         warning = f"{flap} is pushed, and this box has no such flap"
@@ -173,10 +197,10 @@ class Session:
         pushing = world.tool.pushing if world.tool else ()
         return frozenset(self.stage.watch.code_of(tool, body) for tool in pushing for body in bodies)
 
-    def _rest(self) -> None:
+    def _rest(self, allowed: frozenset[int] = NOTHING) -> None:
         self.stage.caption = "resting"
         still = held(self._place, self.settings.rest_s, self.settings.time_step_s)
-        self.stage.follow(still, self._opening_m, NOTHING)
+        self.stage.follow(still, self._opening_m, allowed)
 
     def _judge(self, flap: str) -> None:
         if flap in self._seen:
@@ -192,13 +216,15 @@ class Session:
         for name in sorted(end):
             seen = self._seen.get(name)
             was_closed = name in closed if seen is None else seen.closed
+            # The arm has not left the flap at which it was stopped.
+            left = proven and (self.stopped is None or self.stopped.flap != name)
             verdicts[name] = FlapVerdict(
                 before_rad=self._before[name] if seen is None else seen.before_rad,
                 pushed_to_rad=None if seen is None else seen.pushed_to_rad,
                 after_rad=end[name] if seen is None else seen.after_rad,
                 end_rad=end[name],
-                closed=proven and was_closed,
-                held=proven and name in closed,
+                closed=left and was_closed,
+                held=left and name in closed,
                 crease_n_m=moments[name],
             )
         return verdicts

@@ -54,13 +54,14 @@ class Stage:
     ) -> float:
         """Steps to the course's end; the least position (rad) of a flap on the way, infinite where none is named.
 
-        `allowed` are the pairs that may touch on the way (`Watch.code_of`).
+        `allowed` are the pairs that may touch on the way (`Watch.code_of`). Ends early where the tool first presses too
+        hard (`watch.tripped`).
         """
         model, data, watch = self.world.model, self.data, self.watch
         flap_at = None if flap is None else int(model.joint(self.world.box.joint_of[flap]).qposadr[0])
-        least_rad = np.inf
+        least_rad, was_tripped = np.inf, watch.tripped is not None
         commands = None if self._tool is None else self._tool.commands(*course.rows(), opening_m)
-        followed = np.empty_like(course.positions)
+        followed = course.positions.copy()
         for k in range(len(course.positions)):
             if commands is not None:
                 data.ctrl[:] = commands[k]
@@ -72,10 +73,16 @@ class Stage:
             if flap_at is not None:
                 least_rad = min(least_rad, data.qpos[flap_at])
             self._film()
+            if watch.tripped is not None and not was_tripped:
+                break
         if commands is not None:
             errors = np.abs(followed - course.positions)
             self.max_joint_error_rad = max(self.max_joint_error_rad, float(errors.max(initial=0.0)))
         return float(least_rad)
+
+    def tool_positions(self) -> Array:
+        """The tool's joints (rad or m) as they are now."""
+        return np.array(self.data.qpos[self._joints])
 
     def _film(self) -> None:
         if self._every and self._steps % self._every == 0:

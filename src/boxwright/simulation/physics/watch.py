@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import msgspec
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,15 @@ Array = NDArray[np.float64]
 FELT_S = 0.01
 """Forces are told as a sensor of this time constant feels them: how high the peak of a stiff impact is, the time step
 decides."""
+
+
+class Tripped(msgspec.Struct, frozen=True):
+    """When the tool first pressed too hard (s), how hard as felt (N), with which body on which, and where (m)."""
+
+    at_s: float
+    force_n: float
+    pair: tuple[str, str]
+    at_m: tuple[float, float, float]
 
 
 class Watch:
@@ -30,6 +40,8 @@ class Watch:
         self.max_penetration_m = 0.0
         self.deepest: tuple[str, str] | None = None
         self.max_force_n = 0.0
+        self.tripped: Tripped | None = None
+        self._limit_n = world.settings.most_force_n
         self._felt_n = 0.0
         self._share = min(1.0, world.settings.time_step_s / FELT_S)
         self._touched: set[int] = set()
@@ -39,6 +51,8 @@ class Watch:
         force_n = self._look(data, allowed) if data.ncon else 0.0
         self._felt_n += self._share * (force_n - self._felt_n)
         self.max_force_n = max(self.max_force_n, self._felt_n)
+        if self.tripped is None and self._felt_n > self._limit_n:
+            self.tripped = self._trip(data)
 
     def _look(self, data: mujoco.MjData, allowed: frozenset[int]) -> float:
         """Notes depths and pairs; the normal force (N) on the tool."""
@@ -57,6 +71,15 @@ class Watch:
         # With an elliptic cone the normal force stands in the first of a contact's rows.
         rows = contact.efc_address[tooled]
         return float(data.efc_force[rows[rows >= 0]].sum())
+
+    def _trip(self, data: mujoco.MjData) -> Tripped:
+        """What the tool presses on hardest in the step that passes the limit, in which it touches something."""
+        contact = data.contact
+        forces_n = np.where(contact.efc_address >= 0, data.efc_force[contact.efc_address], 0.0)
+        hardest = int(np.where(self._is_tool_geom[contact.geom].any(axis=1), forces_n, -1.0).argmax())
+        x, y, z = (float(value) for value in contact.pos[hardest])
+        pair = self._names(*self._body_of_geom[contact.geom[hardest]])
+        return Tripped(float(data.time), self._felt_n, pair, (x, y, z))
 
     def forget_depth(self) -> None:
         """What sank into what until now was not a run's doing."""
