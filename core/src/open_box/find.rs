@@ -13,6 +13,7 @@ use super::patch::Patch;
 use super::proposed::outer_m;
 use super::refused::Refused;
 use super::rivals::{best_of_rivals, fitted_in_turn};
+use super::second_look::{more_to_fit, with_second};
 use super::shells::{shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
@@ -24,8 +25,8 @@ use crate::perception::Scene;
 /// How well a proposal's lengths are known.
 const PROPOSED_SIGMA_M: f64 = 0.01;
 
-/// Of some 1200 boxes that were so improbable once fitted one came to 0.3 with the second fit, and of those chosen none to 0.03.
-const HOPELESS_ONCE_FITTED: f64 = 0.003;
+/// Of some 5000 boxes that were so improbable once fitted, half of all, six came to 0.3 with the second fit.
+const HOPELESS_ONCE_FITTED: f64 = 0.001;
 
 /// What was found in one frame.
 #[derive(Debug, Default)]
@@ -83,7 +84,16 @@ pub fn find(
     clock.lap("rival_fits");
     let patches = Patch::of_things(scene, sight);
     let finishing = Finishing { sight, patches: &patches, assignments, sizes, settings, judgement };
-    let (boxes, refused) = last_fits(found, &finishing);
+    let (mut boxes, mut refused) = last_fits(found, &finishing, false);
+    if judgement.is_some() {
+        let is_fitted = |shell: &Shell| rivals.iter().any(|other| std::ptr::eq(*other, shell));
+        let more = more_to_fit(&shells, is_fitted, &boxes, &refused, judgement);
+        let grown = |shell: &&Shell| grow(sight, &body_of(&shell.proposal), &shell.flaps, settings, |_| true);
+        let second: Vec<Option<FoundBox>> = more.par_iter().map(|shell| grown(shell).map(weighed)).collect();
+        let (all, more_refused) = with_second(boxes, second.into_iter().flatten().collect(), &finishing);
+        boxes = all;
+        refused.extend(more_refused);
+    }
     clock.lap("last_fits");
     Found { boxes, refused, stage_seconds: clock.laps }
 }

@@ -22,11 +22,13 @@ const EVEN: f64 = 0.5;
 /// Those chosen of the fitted boxes, fitted to all of their readings, best first. Where that does not end in a box that is told, it is
 /// chosen anew from the rest; where all that failed are boxes that are not told, from what is probable enough to be told. Those that
 /// nothing replaces come last.
-pub fn last_fits(mut found: Vec<FoundBox>, finishing: &Finishing) -> (Vec<FoundBox>, Vec<Refused>) {
+///
+/// A second choice is told where it is likelier than not; those found may be such from the start.
+pub fn last_fits(mut found: Vec<FoundBox>, finishing: &Finishing, are_second: bool) -> (Vec<FoundBox>, Vec<Refused>) {
     let (mut told, mut doubtful): (Vec<Done>, Vec<FoundBox>) = (Vec::new(), Vec::new());
     let mut refused: Vec<Refused> = Vec::new();
+    let mut is_second_choice = are_second;
     let mut bodies: Vec<FittedBody> = Vec::new();
-    let mut is_second_choice = false;
     for _ in 0..=MOST_AGAIN {
         let chosen = choose(&found, finishing.sight.width);
         bodies = chosen.iter().map(|chosen| chosen.one.solution.body.clone()).collect();
@@ -67,7 +69,7 @@ pub fn last_fits(mut found: Vec<FoundBox>, finishing: &Finishing) -> (Vec<FoundB
         if failed.is_empty() {
             break;
         }
-        is_second_choice = all_fitted;
+        is_second_choice = are_second || all_fitted;
         let is_told = |one: &FoundBox| told.iter().any(|done| done.chosen == one.solution.body);
         let is_failed = |one: &FoundBox| failed.contains(&one.solution.body);
         found.retain(|one| is_told(one) || (!is_failed(one) && (!all_fitted || is_probable(one, finishing.judgement))));

@@ -40,6 +40,7 @@ mod rim_lines;
 mod rims;
 mod rivals;
 mod same;
+mod second_look;
 mod settle;
 mod shape;
 mod shell;

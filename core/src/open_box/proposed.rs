@@ -2,6 +2,7 @@
 
 use super::proposal::Proposal;
 use super::upright::is_lying;
+use crate::fit::{layout, FittedBody};
 use crate::geometry::Vec3;
 
 /// What stands on one support has ways up nearer than this.
@@ -29,6 +30,17 @@ pub fn overlap(a: &Proposal, b: &Proposal) -> bool {
         (0..2).all(|i| is_between(a.spans[i], &a.axes[i])) && (is_alike || is_between(a.heights, &a.up))
     };
     within(a, b) || within(b, a)
+}
+
+/// Whether the middle of one lies in the other.
+pub fn lies_upon(proposal: &Proposal, body: &FittedBody) -> bool {
+    let [length, width, height] = [layout::LENGTH, layout::WIDTH, layout::HEIGHT].map(|place| body.get(place));
+    let (middle, at) = (body.to_input(&(Vec3::z() * (height / 2.0))), body.to_object(&middle(proposal)));
+    let is_in_proposal = (0..2).all(|i| {
+        let [low, high] = proposal.spans[i];
+        (low..=high).contains(&proposal.axes[i].dot(&middle))
+    });
+    is_in_proposal || (at.x.abs() < length / 2.0 && at.y.abs() < width / 2.0)
 }
 
 /// Length, width and height over the boards, m.
