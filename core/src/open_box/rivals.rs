@@ -75,24 +75,8 @@ mod tests {
     use nalgebra::{DMatrix, Isometry3};
 
     use super::super::labels::{Labels, Present};
-    use super::super::proposal::Proposal;
-    use super::super::rims::OnRims;
-    use super::super::shell_look::ShellLook;
     use super::*;
     use crate::fit::{FittedBody, Parameters, Solution};
-    use crate::geometry::Vec3;
-
-    /// A proposal that many hold, so far along x.
-    fn shell(at_m: f64, score: f64) -> Shell {
-        let proposal = Proposal {
-            axes: [Vec3::x(), Vec3::y()],
-            up: Vec3::z(),
-            spans: [[at_m - 0.2, at_m + 0.2], [-0.1, 0.1]],
-            heights: [0.0, 0.2],
-            on_flaps: 0.0,
-        };
-        Shell { proposal, looked: ShellLook::default(), on_rims: OnRims::default(), score, flaps: [None; 4] }
-    }
 
     fn found(score: f64, probability: f64, slots: f64) -> FoundBox {
         let body = FittedBody { input_from_object: Isometry3::identity(), numbers: Parameters::zeros() };
@@ -106,7 +90,7 @@ mod tests {
     fn what_promises_no_more_than_a_sure_box_holds_is_not_fitted() {
         // Three upon each other, and two apart.
         let places = [(0.0, 900.0), (0.02, 850.0), (1.0, 810.0), (0.04, 800.0), (1.02, 700.0)];
-        let all: Vec<Shell> = places.map(|(at_m, score)| shell(at_m, score)).into();
+        let all: Vec<Shell> = places.map(|(at_m, score)| Shell::that_far(at_m, score)).into();
         let mut cases = 0;
         for (score, probability, slots, is_left) in
             [(800.0, 0.95, 1.0, true), (790.0, 0.99, 1.0, false), (950.0, 0.94, 1.0, false), (950.0, 0.99, 0.9, false)]

@@ -74,24 +74,8 @@ pub fn with_second(
 mod tests {
     use nalgebra::{Isometry3, Translation3};
 
-    use super::super::proposal::Proposal;
-    use super::super::rims::OnRims;
-    use super::super::shell_look::ShellLook;
     use super::*;
     use crate::fit::{layout, NotFitted, Parameters};
-    use crate::geometry::Vec3;
-
-    /// A proposal so far along x.
-    fn shell(at_m: f64, score: f64) -> Shell {
-        let proposal = Proposal {
-            axes: [Vec3::x(), Vec3::y()],
-            up: Vec3::z(),
-            spans: [[at_m - 0.2, at_m + 0.2], [-0.1, 0.1]],
-            heights: [0.0, 0.2],
-            on_flaps: 0.0,
-        };
-        Shell { proposal, looked: ShellLook::default(), on_rims: OnRims::default(), score, flaps: [None; 4] }
-    }
 
     fn refused(at_m: f64, why: Refusal) -> Refused {
         let mut numbers = Parameters::zeros();
@@ -106,8 +90,9 @@ mod tests {
     fn proposals_upon_what_was_refused_are_fitted_if_that_may_be_a_box() {
         // Two of each place are fitted already; of one there are more than are tried.
         let places = [(0.0, 40), (1.0, 5), (2.0, 5), (3.0, 5), (4.0, 5), (5.0, 5)];
-        let of_place =
-            |&(at_m, count): &(f64, usize)| (0..count).map(move |i| shell(at_m + 0.01 * i as f64, 900.0 - i as f64));
+        let of_place = |&(at_m, count): &(f64, usize)| {
+            (0..count).map(move |i| Shell::that_far(at_m + 0.01 * i as f64, 900.0 - i as f64))
+        };
         let shells: Vec<Shell> = places.iter().flat_map(of_place).collect();
         let why = |probability: f64| Refusal::Improbable { probability, least: 0.3 };
         let refused = [

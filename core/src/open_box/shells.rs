@@ -107,3 +107,18 @@ fn all_proposals(patches: &[Patch], edges: &[Vec3], eye: &Vec3) -> Vec<Proposal>
 /// So many pixels for a box more than against it.
 pub const LEAST_SCORE: f64 = 300.0;
 const ALIKE_M: f64 = 0.009;
+
+#[cfg(test)]
+impl Shell {
+    /// One so far along x that holds so much.
+    pub fn that_far(at_m: f64, score: f64) -> Self {
+        let proposal = Proposal {
+            axes: [Vec3::x(), Vec3::y()],
+            up: Vec3::z(),
+            spans: [[at_m - 0.2, at_m + 0.2], [-0.1, 0.1]],
+            heights: [0.0, 0.2],
+            on_flaps: 0.0,
+        };
+        Self { proposal, looked: ShellLook::default(), on_rims: OnRims::default(), score, flaps: [None; 4] }
+    }
+}
