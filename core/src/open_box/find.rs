@@ -5,7 +5,7 @@ use super::features;
 use super::finish::Finishing;
 use super::flap_scan::ScannedFlap;
 use super::found_box::{FoundBox, COARSE_M};
-use super::grow::grow;
+use super::grow::{grow, IsHopeful};
 use super::hanging::{scan_flaps, COARSE_SCAN};
 use super::judgement::Judgement;
 use super::last_fits::last_fits;
@@ -66,7 +66,9 @@ pub fn find(
         FoundBox { features, probability, size: best_match(&one.solution, sizes), ..one }
     };
     let rivals = best_of_rivals(&shells);
-    let is_hopeful = |once: &FoundBox| judgement.is_none() || weighed(once.clone()).probability >= HOPELESS_ONCE_FITTED;
+    let is_probable = |once: FoundBox| weighed(once).probability >= HOPELESS_ONCE_FITTED;
+    // Nobody says what is hopeless where nobody judges.
+    let is_hopeful = judgement.is_some().then_some(&is_probable as IsHopeful);
     let fit = |shell: &Shell| grow(sight, &body_of(&shell.proposal), &shell.flaps, settings, is_hopeful).map(weighed);
     // Nobody says that one is surely a box where nobody judges.
     let of_shells: Vec<Option<FoundBox>> = match judgement {
@@ -88,7 +90,7 @@ pub fn find(
     if judgement.is_some() {
         let is_fitted = |shell: &Shell| rivals.iter().any(|other| std::ptr::eq(*other, shell));
         let more = more_to_fit(&shells, is_fitted, &boxes, &refused, judgement);
-        let grown = |shell: &&Shell| grow(sight, &body_of(&shell.proposal), &shell.flaps, settings, |_| true);
+        let grown = |shell: &&Shell| grow(sight, &body_of(&shell.proposal), &shell.flaps, settings, None);
         let second: Vec<Option<FoundBox>> = more.par_iter().map(|shell| grown(shell).map(weighed)).collect();
         let (all, more_refused) = with_second(boxes, second.into_iter().flatten().collect(), &finishing);
         boxes = all;

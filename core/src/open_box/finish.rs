@@ -86,7 +86,7 @@ impl Finishing<'_> {
         if flaps.iter().all(Option::is_none) {
             return found;
         }
-        let grown = grow(self.sight, &lower, &flaps, self.settings, |_| true);
+        let grown = grow(self.sight, &lower, &flaps, self.settings, None);
         let lower = grown.map(|grown| FoundBox { rivals: found.rivals, size: found.size, ..grown });
         match lower.map(|lower| self.finish(lower)) {
             Some(Ok(lower)) if self.rank(&lower) > BELOW_SLOTS * self.rank(&found) => self.while_better(lower),

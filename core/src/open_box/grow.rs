@@ -13,25 +13,26 @@ use super::slots::likelihood_of_slots;
 use super::sure::{drop_unsure, long_enough};
 use crate::fit::{check, layout, FitSettings, FittedBody, NotFitted, Role, Solution};
 
-/// From a body with its scanned flaps to a box fitted to some of its readings, twice; `goes_on` is asked once it is fitted once.
+/// Asked of a box that is fitted once whether it is worth a second fit.
+pub type IsHopeful<'a> = &'a (dyn Fn(FoundBox) -> bool + Sync);
+
+/// From a body with its scanned flaps to a box fitted to some of its readings, twice.
 pub fn grow(
     sight: &Sight,
     body: &FittedBody,
     flaps: &[Option<ScannedFlap>; 4],
     settings: &FitSettings,
-    goes_on: impl Fn(&FoundBox) -> bool,
+    is_hopeful: Option<IsHopeful>,
 ) -> Option<FoundBox> {
     let settings = competing(settings);
     let (body, present) = with_flaps(body, flaps);
     let labels = label(sight, &body, &present, COARSE_M, COARSE_STRIDE);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;
     sound(&solution.body).ok()?;
-    let once = weigh(sight, solution, present, COARSE_STRIDE);
-    if !goes_on(&once) {
+    if is_hopeful.is_some_and(|is_hopeful| !is_hopeful(weigh(sight, solution.clone(), present, COARSE_STRIDE))) {
         return None;
     }
-    let body = once.solution.body;
-    let (body, present) = with_flaps(&body, &scan_flaps(sight, &body, ONCE_FITTED_M, FINE_SCAN));
+    let (body, present) = with_flaps(&solution.body, &scan_flaps(sight, &solution.body, ONCE_FITTED_M, FINE_SCAN));
     let mut labels = label(sight, &body, &present, FINE_M, COARSE_STRIDE);
     drop_unsure(sight, &body, &mut labels);
     let solution = refit(sight, &body, &present, &labels, &settings).ok()?;

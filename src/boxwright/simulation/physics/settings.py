@@ -46,8 +46,9 @@ class PhysicsSettings(msgspec.Struct, frozen=True, kw_only=True):
     """A run in which anything sinks deeper into anything else proves nothing."""
     most_force_n: float = 250.0
     """The tool is stopped where it presses harder than this on anything, felt as `Watch` feels it, as a controller that
-    watches its motors' currents would stop it: five times what an arm of 5 kg payload holds up. Runs in which all goes
-    well stay below it, lids that are pressed onto their tucks being the most; boxes that are dragged do not."""
+    watches its motors' currents would stop it: five times what an arm of 5 kg payload holds up. Nearly all runs in
+    which all goes well stay below it, lids that are pressed onto their tucks being the most; those that drag a box do
+    not."""
     tripped_m: float = 0.0005
     """Two boards that start deeper in one another than this were not told apart by whoever told them."""
 
