@@ -212,6 +212,28 @@ def test_where_nothing_is_told_more_proposals_are_fitted(
     assert any(one.dimensions is not None and size_error_m(one.dimensions, true) < 0.02 for one in objects)
 
 
+THIN_FLAPS = {
+    ("small", 9111, 198): 0,
+    ("medium", 9112, 73): 0,
+    ("small", 9112, 24): 0,
+    ("carton", 9112, 99): 0,
+    ("large", 9121, 32): 0,
+    ("medium", 9121, 175): 2,
+    ("large", 9122, 158): 0,
+}
+"""Frames, and the box that has a flap of some 450 to 1000 readings on a band of three to five pixels."""
+
+
+@pytest.mark.parametrize(("frame", "number"), THIN_FLAPS.items())
+def test_flaps_are_found_that_are_seen_from_their_edge(frame: tuple[str, int, int], number: int) -> None:
+    seen = make_frame(*frame)
+    inferred = boxwright.infer(cloud_of(seen))
+    score = score_frame(inferred.model.objects, inferred.object_labels, inferred.part_labels, seen.truth, seen.labels)
+    (box,) = (box for box in score.boxes if box.box == number)
+    assert (box.flaps_right, box.flaps_wrong) == (box.flaps_in_cloud, 0)
+    assert max(error.flap_angle_rad for error in box.flap_errors) < np.radians(6.0)
+
+
 def test_a_filled_slot_speaks_for_no_other_box() -> None:
     """Few pixels between two flaps that stand up, and nothing behind them: no body with higher sides competes."""
     (found,) = boxwright.infer(cloud_of(make_frame("large", 8601, 158))).model.objects

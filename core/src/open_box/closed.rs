@@ -40,7 +40,7 @@ mod tests {
         numbers[layout::flap(1) + layout::FLAP_ANGLE] = angle_rad;
         let body = FittedBody { input_from_object: Isometry3::identity(), numbers };
         let parts = vec![(Role::Base, vec![0; base]), (Role::Side(1), vec![0; 900]), (Role::Flap(1), vec![0; 900])];
-        let present = Present { flaps: [false, true, false, false], tucks: [false; 4] };
+        let present = Present { flaps: [false, true, false, false], ..Present::default() };
         let evidence = vec![(Role::Side(3), Evidence { met: inner, is_inner: true, ..Evidence::default() })];
         let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
         let one = FoundBox::unjudged(solution, present, Labels { parts, stride: 1 }, evidence, 1800.0);

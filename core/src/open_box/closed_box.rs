@@ -36,7 +36,7 @@ const LEAST_M: [(usize, f64); 3] = [(layout::LENGTH, 0.1), (layout::WIDTH, 0.1),
 const MOST_SHARED: f64 = 0.1;
 
 const TOP: usize = 0;
-const PRESENT: Present = Present { flaps: [true, false, false, false], tucks: [false; 4] };
+const PRESENT: Present = Present { flaps: [true, false, false, false], tucks: [false; 4], thin: [false; 4] };
 
 /// The closed boxes among the readings that are not `taken`, best first.
 pub fn find_closed(sight: &Sight, scene: &Scene, taken: &[bool], settings: &FitSettings) -> Vec<FoundBox> {

@@ -231,7 +231,7 @@ mod tests {
             (900, looked(900.0, 900.0, 0.0), false),
         ] {
             let body = FittedBody { input_from_object: Isometry3::identity(), numbers: Parameters::zeros() };
-            let present = Present { flaps: [false; 4], tucks: [false; 4] };
+            let present = Present::default();
             let parts = vec![(Role::Side(0), vec![0; 900]), (Role::Side(1), vec![0; readings])];
             let evidence = vec![(Role::Side(0), looked(900.0, 0.0, 0.0)), (Role::Side(1), evidence)];
             let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };

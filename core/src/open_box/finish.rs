@@ -14,13 +14,14 @@ use super::hanging::{
 };
 use super::judgement::Judgement;
 use super::label::label;
-use super::labels::{Labels, Present};
+use super::labels::{roles, Labels, Present};
 use super::patch::Patch;
 use super::patch_flaps::flaps_of_patches;
 use super::refit::refit;
 use super::sight::Sight;
 use super::slots::height_by_slots;
 use super::sure::drop_unsure;
+use super::thin::{thin_flaps, with_thin};
 use super::told::is_told;
 use crate::fit::{
     canonical_turn, layout, with_known_size, FitSettings, FittedBody, KnownSize, NotFitted, Role, Solution,
@@ -44,6 +45,9 @@ const CHANGED: f64 = 1.01;
 /// A box with flaps that stand up holds at least this share of what it held as one of higher sides.
 const BELOW_SLOTS: f64 = 0.9;
 
+/// A box with a flap that is seen from its edge ranks as high, but for the readings that come and go at its panels' ends.
+const NO_LESS: f64 = 0.98;
+
 impl Finishing<'_> {
     /// The box that was chosen, or of those that could take its place the one that holds more once all are finished.
     ///
@@ -56,7 +60,7 @@ impl Finishing<'_> {
             Ok(best) if self.rank(&best) >= self.rank(&one) => Ok(best),
             _ => Ok(one),
         });
-        best.map(|best| self.below_slots(self.with_lids(self.while_better(best))))
+        best.map(|best| self.with_thin_flaps(self.below_slots(self.with_lids(self.while_better(best)))))
     }
 
     /// The box with lids that are seen from their edges, where it ranks higher with them.
@@ -119,6 +123,34 @@ impl Finishing<'_> {
         let (sight, settings, rivals) = (self.sight, self.settings, found.rivals);
         let (solution, present, of_fewer) = fit_to_all(sight, &found, settings)?;
         let found = look_again(sight, self.patches, weigh(sight, solution, present, 1), settings);
+        self.sized(FoundBox { of_fewer, rivals, ..found })
+    }
+
+    /// With flaps that are seen from their edge, one after the other, where no other panel is lost.
+    fn with_thin_flaps(&self, found: FoundBox) -> FoundBox {
+        let is_told = |found: &FoundBox, role: Role| is_told(found, role, self.judgement);
+        let is_missed = |k: usize| !is_told(&found, Role::Flap(k)) && !is_told(&found, Role::Tuck(k));
+        let flaps = thin_flaps(self.sight, &found.solution.body, &found.labels, std::array::from_fn(is_missed));
+        let with = |found: FoundBox, (k, flap): (usize, ScannedFlap)| {
+            let with = with_thin(self.sight, &found, k, flap, self.settings).and_then(|with| {
+                self.sized(FoundBox { of_fewer: found.of_fewer.clone(), rivals: found.rivals, ..with }).ok()
+            });
+            let is_better = |with: &FoundBox| {
+                self.rank(with) > NO_LESS * self.rank(&found)
+                    && roles(&found.present).into_iter().all(|role| !is_told(&found, role) || is_told(with, role))
+            };
+            with.filter(is_better).unwrap_or(found)
+        };
+        flaps.iter().enumerate().filter_map(|(k, flap)| Some((k, (*flap)?))).fold(found, with)
+    }
+
+    /// Of the size that it matches, if any, and with what it is judged by.
+    ///
+    /// # Errors
+    /// Where a body of that size is no box.
+    fn sized(&self, found: FoundBox) -> Result<FoundBox, NotFitted> {
+        let (sight, settings) = (self.sight, self.settings);
+        let (of_fewer, rivals) = (found.of_fewer.clone(), found.rivals);
         let (solution, size) = with_known_size(found.solution.clone(), self.sizes, settings.seen_scale.dimension);
         sound(&solution.body)?;
         let found = if size.is_some() { weigh(sight, solution, found.present, 1) } else { found };

@@ -40,8 +40,13 @@ pub fn scan_flaps(sight: &Sight, body: &FittedBody, model_m: f64, by: FlapScan) 
 /// Of the flap on side `k`.
 fn flap_range(body: &FittedBody, k: usize, model_m: f64, by: FlapScan) -> ScanRange {
     let FlapScan { angles_rad, peaks, columns } = by;
-    let longest_m = LONGEST_SHARE * body.edge_m(k + 1) + LONGER_M;
+    let longest_m = longest_flap_m(body, k);
     ScanRange { angles_rad, longest_m, model_m, peaks, columns, over_hidden: false }
+}
+
+/// No flap on side `k` is longer.
+pub fn longest_flap_m(body: &FittedBody, k: usize) -> f64 {
+    LONGEST_SHARE * body.edge_m(k + 1) + LONGER_M
 }
 
 /// The flaps on those edges that are asked for that hang into the box.

@@ -80,11 +80,16 @@ impl HingeLine {
         rows.ask(middle, normal, model_m, columns_m).map(move |(says, look)| {
             let Some(look) = look else { return (says, None) };
             let reading = look.at();
-            if says == Says::Met && (self.is_on_parent(&reading, model_m) || self.is_ground(eye_z, look, model_m)) {
+            if says == Says::Met && self.is_of_others(eye_z, look, model_m) {
                 return (Says::Blank, None);
             }
             (says, Some(reading))
         })
+    }
+
+    /// Whether a reading is one of the panel that the edge belongs to, of the base or of the support.
+    pub fn is_of_others(&self, eye_z: f64, look: &Reading, model_m: f64) -> bool {
+        self.is_on_parent(&look.at(), model_m) || self.is_ground(eye_z, look, model_m)
     }
 
     fn is_on_parent(&self, reading: &Vec3, model_m: f64) -> bool {

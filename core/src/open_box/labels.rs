@@ -7,19 +7,26 @@ use crate::fit::Role;
 pub struct Present {
     pub flaps: [bool; 4],
     pub tucks: [bool; 4],
+    /// Those of the flaps that were found from their edge: readings lie on that as well as on a face.
+    pub thin: [bool; 4],
 }
 
 impl Present {
     /// Of the same box with side `by` as side 0.
     pub fn turned(&self, by: usize) -> Self {
         let turn = |of: &[bool; 4]| std::array::from_fn(|k| of[(k + by) % 4]);
-        Self { flaps: turn(&self.flaps), tucks: turn(&self.tucks) }
+        Self { flaps: turn(&self.flaps), tucks: turn(&self.tucks), thin: turn(&self.thin) }
+    }
+
+    /// Whether it is a flap that was found from its edge.
+    pub fn is_thin(&self, role: Role) -> bool {
+        matches!(role, Role::Flap(k) if self.thin[k])
     }
 
     /// Those of them that hang on the sides told.
     pub fn among(&self, sides: &[bool; 4]) -> Self {
         let both = |of: &[bool; 4]| std::array::from_fn(|k| of[k] && sides[k]);
-        Self { flaps: both(&self.flaps), tucks: both(&self.tucks) }
+        Self { flaps: both(&self.flaps), tucks: both(&self.tucks), thin: both(&self.thin) }
     }
 }
 

@@ -53,6 +53,7 @@ mod slots;
 mod start;
 mod sure;
 mod surfaces;
+mod thin;
 mod told;
 mod trees;
 mod unseen;

@@ -111,9 +111,13 @@ fn readings_of(
         let sheet = Sheet::new(body, *role, &sight.eye);
         let (center, normal) = sheet.at(0.0, sheet.length_m / 2.0);
         let normal = if normal.dot(&(sight.eye - center)) < 0.0 { -normal } else { normal };
-        let ends = ends(sight, body, present, *role);
+        // A flap that is seen from its edge shows neither of its faces nor, but by some pixels, its ends.
+        let is_thin = present.is_thin(*role);
+        let ends = if is_thin { [None; 4] } else { ends(sight, body, present, *role) };
         let segment = PartSegment { role: *role, normal, center, ends: PartEnds::Told(ends), points };
-        (PartReadings::new(&segment, body, &sensor, &settings_of(*role)), ends[FAR].is_some())
+        let readings = PartReadings::new(&segment, body, &sensor, &settings_of(*role));
+        let face = if is_thin { 0.0 } else { readings.face };
+        (PartReadings { face, ..readings }, ends[FAR].is_some())
     });
     parts.collect()
 }

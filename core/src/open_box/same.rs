@@ -69,7 +69,7 @@ mod tests {
         let mut body = FittedBody { input_from_object: Isometry3::identity(), numbers };
         change(&mut body);
         let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
-        let present = Present { flaps, tucks: [false; 4] };
+        let present = Present { flaps, ..Present::default() };
         FoundBox::unjudged(solution, present, Labels::default(), Vec::new(), 1.0)
     }
 

@@ -21,6 +21,10 @@ pub struct Surface {
     board_m: f64,
     /// Half boards off the middle.
     face: f64,
+    /// The sine of the angle between a flat panel and the way that its hinge is seen from.
+    seen_at_sin: f64,
+    /// Whether readings lie anywhere in its board, on its edge as on its face.
+    is_from_edge: bool,
     normal: Vec3,
     bulge_m: f64,
     sin: f64,
@@ -35,6 +39,9 @@ pub struct Surface {
     plane: Plane,
     slack_m: f64,
 }
+
+/// Below this sine of the angle that it is seen at, a flap is seen from its edge.
+const FROM_EDGE_SIN: f64 = 0.14;
 
 impl Surface {
     pub fn new(sight: &Sight, body: &FittedBody, role: Role) -> Self {
@@ -93,6 +100,8 @@ impl Surface {
             height_m: body.get(layout::HEIGHT),
             half_board_m,
             board_m: body.board_m(),
+            seen_at_sin: height.abs() / (eye - point).norm(),
+            is_from_edge: false,
             face: height.signum(),
             normal: turn * normal,
             bulge_m: body.get(layout::bulge(k)),
@@ -105,6 +114,11 @@ impl Surface {
             curl,
             from,
         }
+    }
+
+    /// The same of a flap that was found from its edge, where that is how it is seen.
+    pub fn from_edge(self, is_thin: bool) -> Self {
+        Self { is_from_edge: is_thin && self.seen_at_sin < FROM_EDGE_SIN, ..self }
     }
 
     /// Of a point of the object's frame: along the hinge or rim, away from it, off the face.
@@ -156,7 +170,12 @@ impl Surface {
                 if x < -0.002 || x > self.length_m + BEYOND_M || aside > BEYOND_M {
                     return None;
                 }
-                y - self.curl * x * x / 2.0 - self.face * self.half_board_m
+                let y = y - self.curl * x * x / 2.0;
+                if self.is_from_edge {
+                    (y.abs() - self.half_board_m).max(0.0)
+                } else {
+                    y - self.face * self.half_board_m
+                }
             }
         };
         Some((off, ray.dot(&self.normal).abs()))

@@ -57,7 +57,7 @@ mod tests {
         let roles = [Role::Side(0), Role::Flap(0), Role::Tuck(0)];
         let parts = roles.iter().zip(readings).map(|(role, count)| (*role, vec![0; count])).collect();
         let first = [true, false, false, false];
-        let present = Present { flaps: first, tucks: first };
+        let present = Present { flaps: first, tucks: first, ..Present::default() };
         let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
         FoundBox::unjudged(solution, present, Labels { parts, stride: 1 }, vec![(Role::Flap(0), flap)], 0.0)
     }
