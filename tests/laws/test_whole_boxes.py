@@ -212,6 +212,35 @@ def test_where_nothing_is_told_more_proposals_are_fitted(
     assert any(one.dimensions is not None and size_error_m(one.dimensions, true) < 0.02 for one in objects)
 
 
+MOVED_SIDES = {
+    ("large", 9201, 26): 0,
+    ("medium", 9201, 85): 1,
+    ("medium", 9112, 139): 0,
+    ("large", 9112, 194): 0,
+    ("large", 9121, 134): 0,
+    ("medium", 9122, 139): 0,
+}
+"""Frames, and the box that was told with a wrong length: what shows of that side is its flap."""
+
+
+@pytest.mark.parametrize(("frame", "number"), MOVED_SIDES.items())
+def test_a_side_that_shows_nothing_stands_where_its_flap_hangs(frame: tuple[str, int, int], number: int) -> None:
+    seen = make_frame(*frame)
+    inferred = boxwright.infer(cloud_of(seen))
+    score = score_frame(inferred.model.objects, inferred.object_labels, inferred.part_labels, seen.truth, seen.labels)
+    (box,) = (box for box in score.boxes if box.box == number)
+    assert (box.panels_right, box.panels_wrong) == (box.panels_in_cloud, 0)
+    assert max(box.dimension_errors_m or [1.0]) < 0.012
+
+
+def test_no_side_is_moved_to_where_another_boxs_flap_hangs() -> None:
+    """A lid between these two boxes would fit either."""
+    seen = make_frame("cake", 9112, 118)
+    inferred = boxwright.infer(cloud_of(seen))
+    score = score_frame(inferred.model.objects, inferred.object_labels, inferred.part_labels, seen.truth, seen.labels)
+    assert [(box.flaps_right, box.flaps_wrong) for box in score.boxes] == [(4, 0), (3, 0)]
+
+
 THIN_FLAPS = {
     ("small", 9111, 198): 0,
     ("medium", 9112, 73): 0,

@@ -26,12 +26,12 @@ mod solve;
 mod start;
 mod wall_lean;
 
-pub use body::FittedBody;
+pub use body::{edge_place, FittedBody};
 pub use forward::corners;
 pub use known_size::{KnownSize, SizeMatch};
 pub use object::fit_object;
 pub use refusal::NotFitted;
-pub use rim::Rim;
+pub use rim::{AtRim, Rim};
 pub use roles::Role;
 pub use settings::{FitSettings, SigmaScales};
 pub use size_warnings::size_warnings;

@@ -8,13 +8,14 @@ use super::evidence::{Evidence, Sheet};
 use super::features;
 use super::flap_scan::ScannedFlap;
 use super::found_box::{FoundBox, COARSE_STRIDE, FINE_M};
-use super::grow::{competing, grow, sound, weigh};
+use super::grow::{competing, fitted_as_it_stands, grow, sound, weigh};
 use super::hanging::{
     scan_flaps, scan_flaps_into_box, scan_hidden_flaps, scan_tucks, with_flaps, with_tucks, FINE_SCAN,
 };
 use super::judgement::Judgement;
 use super::label::label;
 use super::labels::{roles, Labels, Present};
+use super::moved::{moved_sides, MovedSide};
 use super::patch::Patch;
 use super::patch_flaps::flaps_of_patches;
 use super::refit::refit;
@@ -45,22 +46,27 @@ const CHANGED: f64 = 1.01;
 /// A box with flaps that stand up holds at least this share of what it held as one of higher sides.
 const BELOW_SLOTS: f64 = 0.9;
 
+/// A box with a side moved ranks so much higher.
+const MOVED: f64 = 1.02;
+
 /// A box with a flap that is seen from its edge ranks as high, but for the readings that come and go at its panels' ends.
 const NO_LESS: f64 = 0.98;
 
 impl Finishing<'_> {
-    /// The box that was chosen, or of those that could take its place the one that holds more once all are finished.
+    /// The box that was chosen, or of those that could take its place the one that holds more once all are finished; `others` are
+    /// chosen beside it.
     ///
     /// # Errors
     /// As of the fit of the box that was chosen, where none takes its place.
-    pub fn best(&self, chosen: Chosen) -> Result<FoundBox, NotFitted> {
+    pub fn best(&self, chosen: Chosen, others: &[&FoundBox]) -> Result<FoundBox, NotFitted> {
         let first = self.finish(chosen.one);
-        let others = chosen.instead.into_iter().filter_map(|one| self.finish(one).ok());
-        let best = others.fold(first, |best, one| match best {
+        let instead = chosen.instead.into_iter().filter_map(|one| self.finish(one).ok());
+        let best = instead.fold(first, |best, one| match best {
             Ok(best) if self.rank(&best) >= self.rank(&one) => Ok(best),
             _ => Ok(one),
         });
-        best.map(|best| self.with_thin_flaps(self.below_slots(self.with_lids(self.while_better(best)))))
+        let best = self.below_slots(self.with_lids(self.while_better(best?)));
+        Ok(self.with_thin_flaps(self.with_moved_side(best, others)))
     }
 
     /// The box with lids that are seen from their edges, where it ranks higher with them.
@@ -124,6 +130,30 @@ impl Finishing<'_> {
         let (solution, present, of_fewer) = fit_to_all(sight, &found, settings)?;
         let found = look_again(sight, self.patches, weigh(sight, solution, present, 1), settings);
         self.sized(FoundBox { of_fewer, rivals, ..found })
+    }
+
+    /// With a side that shows nothing where its flap is, where the box then ranks higher. Readings of `others` are theirs.
+    fn with_moved_side(&self, found: FoundBox, others: &[&FoundBox]) -> FoundBox {
+        let is_asked = std::array::from_fn(|k| !is_told(&found, Role::Side(k), self.judgement));
+        let ways = |moved: MovedSide| {
+            let flaps = scan_flaps(self.sight, &moved.body, FINE_M, FINE_SCAN);
+            let as_it_stands = fitted_as_it_stands(self.sight, &moved.body, moved.present, self.settings);
+            [as_it_stands, grow(self.sight, &moved.body, &flaps, self.settings, None)]
+        };
+        let moved = moved_sides(self.sight, self.patches, &found, others, is_asked);
+        let finished = moved
+            .into_iter()
+            .flat_map(ways)
+            .flatten()
+            .filter_map(|moved| self.finish(FoundBox { rivals: found.rivals, size: found.size, ..moved }).ok());
+        let best = finished.fold(None, |best: Option<FoundBox>, one| match best {
+            Some(best) if self.rank(&best) >= self.rank(&one) => Some(best),
+            _ => Some(one),
+        });
+        match best {
+            Some(best) if self.rank(&best) > MOVED * self.rank(&found) => self.while_better(best),
+            _ => found,
+        }
     }
 
     /// With flaps that are seen from their edge, one after the other, where no other panel is lost.
@@ -240,10 +270,7 @@ fn taken_up(sight: &Sight, found: FoundBox, flaps: &[Option<ScannedFlap>; 4], se
 
 /// Fitted with these parts instead, where more is held then.
 fn if_better(sight: &Sight, found: FoundBox, body: &FittedBody, present: Present, settings: &FitSettings) -> FoundBox {
-    let mut labels = label(sight, body, &present, FINE_M, 1);
-    drop_unsure(sight, body, &mut labels);
-    let again = refit(sight, body, &present, &labels, settings).ok().filter(|again| sound(&again.body).is_ok());
-    let again = again.map(|again| weigh(sight, again, present, 1));
+    let again = fitted_as_it_stands(sight, body, present, settings);
     again.filter(|again| again.score > found.score).unwrap_or(found)
 }
 

@@ -40,6 +40,19 @@ pub fn grow(
     Some(weigh(sight, solution, present, COARSE_STRIDE))
 }
 
+/// The body fitted to all of its readings as it stands; `None` where that leads to no box.
+pub fn fitted_as_it_stands(
+    sight: &Sight,
+    body: &FittedBody,
+    present: Present,
+    settings: &FitSettings,
+) -> Option<FoundBox> {
+    let mut labels = label(sight, body, &present, FINE_M, 1);
+    drop_unsure(sight, body, &mut labels);
+    let solution = refit(sight, body, &present, &labels, settings).ok().filter(|one| sound(&one.body).is_ok())?;
+    Some(weigh(sight, solution, present, 1))
+}
+
 /// Of boxes that still compete, and of places that are not yet known well.
 pub fn competing(settings: &FitSettings) -> FitSettings {
     FitSettings { face_samples: 40, end_strips: 10, least_gain: 1e-2, ..*settings }

@@ -32,9 +32,12 @@ pub const FINE_SCAN: FlapScan = FlapScan { angles_rad: FLAP_ANGLES_RAD, peaks: 4
 
 /// The flap on each of a body's top edges, and none where the readings speak against any.
 pub fn scan_flaps(sight: &Sight, body: &FittedBody, model_m: f64, by: FlapScan) -> [Option<ScannedFlap>; 4] {
-    std::array::from_fn(|k| {
-        scan(sight, &HingeLine::of_side(body, k), &flap_range(body, k, model_m, by)).filter(is_flap)
-    })
+    std::array::from_fn(|k| scan_flap(sight, body, k, model_m, by))
+}
+
+/// That on the top edge of side `k`.
+pub fn scan_flap(sight: &Sight, body: &FittedBody, k: usize, model_m: f64, by: FlapScan) -> Option<ScannedFlap> {
+    scan(sight, &HingeLine::of_side(body, k), &flap_range(body, k, model_m, by)).filter(is_flap)
 }
 
 /// Of the flap on side `k`.
@@ -93,6 +96,19 @@ pub fn is_flap(flap: &ScannedFlap) -> bool {
 /// Whether so many pixels on a flap, and through it, make it one.
 pub fn is_there(met: f64, through: f64) -> bool {
     met > LEAST_MET && met > MET_TO_THROUGH * through
+}
+
+/// A flap on side `k` that is as wide as its edge, in place of what was known of one.
+pub fn put_flap(body: &mut FittedBody, k: usize, flap: &ScannedFlap) {
+    let numbers = [
+        (layout::FLAP_LENGTH, flap.length_m),
+        (layout::FLAP_WIDTH, body.edge_m(k)),
+        (layout::FLAP_TAPER, 0.0),
+        (layout::FLAP_OFFSET, 0.0),
+        (layout::FLAP_ANGLE, flap.angle_rad),
+        (layout::FLAP_CURL, flap.curl),
+    ];
+    numbers.into_iter().for_each(|(place, number)| body.numbers[layout::flap(k) + place] = number);
 }
 
 /// The body with these flaps.

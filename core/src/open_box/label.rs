@@ -18,7 +18,7 @@ pub fn label(sight: &Sight, body: &FittedBody, present: &Present, model_m: f64, 
         return Labels { parts, stride };
     };
     let panels: Vec<Surface> =
-        roles.iter().map(|&role| Surface::new(sight, body, role).from_edge(present.is_thin(role))).collect();
+        roles.iter().map(|&role| Surface::new(sight, body, role).seen_from_edge(present.is_thin(role))).collect();
     let planes = Planes::of(&panels);
     let inverse = body.input_from_object.inverse();
     let (turn, shift) = (Turn::of(inverse.rotation.to_rotation_matrix().matrix()), inverse.translation.vector);

@@ -36,10 +36,18 @@ pub fn last_fits(mut found: Vec<FoundBox>, finishing: &Finishing, are_second: bo
         let new: Vec<Chosen> = chosen.into_iter().filter(is_new).collect();
         let (new, hopeless): (Vec<Chosen>, Vec<Chosen>) =
             new.into_iter().partition(|chosen| !is_hopeless(&chosen.one, finishing.judgement));
-        let end = |chosen: Chosen| (chosen.one.solution.body.clone(), finishing.best(chosen));
+        let likely: Vec<FoundBox> =
+            new.iter().map(|chosen| &chosen.one).filter(|one| one.probability >= EVEN).cloned().collect();
+        let end = |chosen: Chosen| {
+            let body = chosen.one.solution.body.clone();
+            let new = likely.iter().filter(|one| one.solution.body != body);
+            let others: Vec<&FoundBox> = new.chain(told.iter().map(|done| &done.one)).collect();
+            (body, finishing.best(chosen, &others))
+        };
         let is_unlikely = |one: &FoundBox| is_second_choice && finished_probability(one, finishing.judgement) < EVEN;
         let (mut failed, mut all_fitted) = (Vec::new(), true);
-        for (chosen, one) in new.into_par_iter().map(end).collect::<Vec<_>>() {
+        let ended = new.into_par_iter().map(end).collect::<Vec<_>>();
+        for (chosen, one) in ended {
             match one {
                 Ok(one) if is_unlikely(&one) => {
                     let why = Refusal::Improbable {

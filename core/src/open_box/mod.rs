@@ -27,6 +27,7 @@ mod labels;
 mod last_fits;
 mod lean;
 mod lids;
+mod moved;
 mod next_view;
 mod owners;
 mod patch;

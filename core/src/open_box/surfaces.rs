@@ -117,7 +117,7 @@ impl Surface {
     }
 
     /// The same of a flap that was found from its edge, where that is how it is seen.
-    pub fn from_edge(self, is_thin: bool) -> Self {
+    pub fn seen_from_edge(self, is_thin: bool) -> Self {
         Self { is_from_edge: is_thin && self.seen_at_sin < FROM_EDGE_SIN, ..self }
     }
 

@@ -3,15 +3,12 @@
 
 use super::flap_scan::ScannedFlap;
 use super::found_box::{FoundBox, FINE_M};
-use super::grow::{sound, weigh};
-use super::hanging::{longest_flap_m, FLAP_ANGLES_RAD};
+use super::grow::fitted_as_it_stands;
+use super::hanging::{longest_flap_m, put_flap, FLAP_ANGLES_RAD};
 use super::hinge_line::HingeLine;
-use super::label::label;
 use super::labels::Labels;
-use super::refit::refit;
 use super::sight::Sight;
-use super::sure::drop_unsure;
-use crate::fit::{layout, FitSettings, FittedBody, Role};
+use crate::fit::{FitSettings, FittedBody, Role};
 
 /// To either side of the angle at which the eye lies in the flap's plane so many angles are asked, half a degree apart.
 const STEPS: usize = 16;
@@ -56,22 +53,11 @@ pub fn with_thin(
     settings: &FitSettings,
 ) -> Option<FoundBox> {
     let mut body = found.solution.body.clone();
-    // Its ends hardly show: it is as wide as its edge, and as long as it was found.
-    let numbers = [
-        (layout::FLAP_LENGTH, flap.length_m),
-        (layout::FLAP_WIDTH, body.edge_m(k)),
-        (layout::FLAP_TAPER, 0.0),
-        (layout::FLAP_OFFSET, 0.0),
-        (layout::FLAP_ANGLE, flap.angle_rad),
-        (layout::FLAP_CURL, flap.curl),
-    ];
-    numbers.into_iter().for_each(|(place, number)| body.numbers[layout::flap(k) + place] = number);
+    // Its ends hardly show: it is as long as it was found.
+    put_flap(&mut body, k, &flap);
     let mut present = found.present;
     (present.flaps[k], present.tucks[k], present.thin[k]) = (true, false, true);
-    let mut labels = label(sight, &body, &present, FINE_M, 1);
-    drop_unsure(sight, &body, &mut labels);
-    let again = refit(sight, &body, &present, &labels, settings).ok().filter(|again| sound(&again.body).is_ok())?;
-    let again = weigh(sight, again, present, 1);
+    let again = fitted_as_it_stands(sight, &body, present, settings)?;
     (again.score > found.score).then_some(again)
 }
 
@@ -189,7 +175,7 @@ fn flap(near: &[Near], hinge: &HingeLine, angle_rad: f64) -> Option<ScannedFlap>
         && on.len() as f64 >= LEAST_OF_WIDE * wide as f64
         && full >= LEAST_COLUMNS
         && length_m >= LEAST_LENGTH_M;
-    is_flap.then(|| ScannedFlap { angle_rad, curl: 0.0, length_m, met: on.len() as f64, through: 0.0, hidden: 0.0 })
+    is_flap.then_some(ScannedFlap { angle_rad, curl: 0.0, length_m, met: on.len() as f64, through: 0.0, hidden: 0.0 })
 }
 
 #[cfg(test)]
@@ -198,7 +184,7 @@ mod tests {
 
     use super::*;
     use crate::cloud::CloudView;
-    use crate::fit::Parameters;
+    use crate::fit::{layout, Parameters};
     use crate::geometry::Vec3;
     use crate::perception::readings::Readings;
     use crate::perception::PerceptionSettings;
