@@ -8,7 +8,7 @@ use super::hanging::{longest_flap_m, put_flap, FLAP_ANGLES_RAD};
 use super::hinge_line::HingeLine;
 use super::labels::Labels;
 use super::sight::Sight;
-use crate::fit::{FitSettings, FittedBody, Role};
+use crate::fit::{lid_length_m, FitSettings, FittedBody, Role};
 
 /// To either side of the angle at which the eye lies in the flap's plane so many angles are asked, half a degree apart.
 const STEPS: usize = 16;
@@ -30,6 +30,8 @@ const COLUMNS: usize = 12;
 const LEAST_COLUMNS: usize = 9;
 const LEAST_OF_COLUMN: f64 = 0.15;
 const LEAST_LENGTH_M: f64 = 0.02;
+/// What is longer than a lid by so much is one with its tuck flap in its plane.
+const LONGER_M: f64 = 0.01;
 /// This share of them lies nearer to the edge than it reaches.
 const WITHIN: f64 = 0.97;
 
@@ -68,7 +70,8 @@ fn thin_flap(sight: &Sight, body: &FittedBody, is_taken: &[bool], k: usize) -> O
     let found = either_way.into_iter().filter_map(|edge_on| {
         let near = readings_near(sight, &hinge, is_taken, edge_on, longest_m);
         let angle_rad = fullest(&near)?;
-        flap(&near, &hinge, angle_rad).map(|flap| ScannedFlap { angle_rad: edge_on + flap.angle_rad, ..flap })
+        let flap = flap(&near, &hinge, angle_rad).filter(|flap| flap.length_m < lid_length_m(body, k) + LONGER_M);
+        flap.map(|flap| ScannedFlap { angle_rad: edge_on + flap.angle_rad, ..flap })
     });
     found.fold(None, |best: Option<ScannedFlap>, one| match best {
         Some(best) if best.met >= one.met => Some(best),
@@ -286,11 +289,12 @@ mod tests {
                 ("it has half of its edge", vec![board([-1.0, 0.0], 0.1, BOARD_M)]),
                 ("it is short", vec![board([-1.0, 1.0], 0.015, BOARD_M)]),
                 ("it is a block", vec![board([-1.0, 1.0], 0.1, 0.06)]),
+                ("it is longer than a lid", vec![board([-1.0, 1.0], body().edge_m(k + 1) + 0.018, BOARD_M)]),
             ] {
                 assert_eq!(found(k, &boards)[k], None, "{k}: {why}");
                 cases += 1;
             }
         }
-        assert_eq!(cases, 16);
+        assert_eq!(cases, 20);
     }
 }
