@@ -165,41 +165,39 @@ impl<'a> Sheet<'a> {
 
     /// Pixels on it, and those of them whose readings are wanted.
     pub fn met_and(&self, sight: &Sight, model_m: f64, is_wanted: impl Fn(usize) -> bool) -> (f64, f64) {
-        let cell =
-            self.width_m.max(0.0) * self.length_m.max(0.0) * (1.0 - 2.0 * END_SHARE).powi(2) / (ALONG * AWAY) as f64;
-        let share = |i: usize, n: usize| END_SHARE + (1.0 - 2.0 * END_SHARE) * (i as f64 + 0.5) / n as f64;
-        let mut out = (0.0, 0.0);
-        for i in 0..ALONG * AWAY {
-            let (point, normal) = self.at(share(i % ALONG, ALONG) - 0.5, share(i / ALONG, AWAY) * self.length_m);
-            if sight.ask(&point, &normal, model_m).0 == Says::Met {
-                let pixels = sight.pixels(&point, &normal, cell);
-                out.0 += pixels;
-                out.1 += if sight.index(&point).is_some_and(&is_wanted) { pixels } else { 0.0 };
-            }
-        }
-        out
+        self.cells(sight).filter(|(point, normal, _)| sight.ask(point, normal, model_m).0 == Says::Met).fold(
+            (0.0, 0.0),
+            |(met, wanted), (point, _, pixels)| {
+                (met + pixels, wanted + if sight.index(&point).is_some_and(&is_wanted) { pixels } else { 0.0 })
+            },
+        )
     }
 
     /// What the rays say of it.
     pub fn look(&self, sight: &Sight, model_m: f64) -> Evidence {
         let mut out = Evidence { is_inner: self.is_inner(), ..Evidence::default() };
+        for (point, normal, pixels) in self.cells(sight) {
+            *match sight.ask(&point, &normal, model_m).0 {
+                Says::Met => &mut out.met,
+                Says::Through => &mut out.through,
+                Says::Hidden => &mut out.hidden,
+                Says::Blank => &mut out.blank,
+                Says::Outside => &mut out.outside,
+            } += pixels;
+        }
+        out
+    }
+
+    /// The points at which it is asked, with the normal and the pixels of each.
+    fn cells<'b>(&'b self, sight: &'b Sight) -> impl Iterator<Item = (Vec3, Vec3, f64)> + 'b {
         let cell =
             self.width_m.max(0.0) * self.length_m.max(0.0) * (1.0 - 2.0 * END_SHARE).powi(2) / (ALONG * AWAY) as f64;
         let share = |i: usize, n: usize| END_SHARE + (1.0 - 2.0 * END_SHARE) * (i as f64 + 0.5) / n as f64;
-        for i in 0..ALONG {
-            for j in 0..AWAY {
-                let (point, normal) = self.at(share(i, ALONG) - 0.5, share(j, AWAY) * self.length_m);
-                let pixels = sight.pixels(&point, &normal, cell);
-                *match sight.ask(&point, &normal, model_m).0 {
-                    Says::Met => &mut out.met,
-                    Says::Through => &mut out.through,
-                    Says::Hidden => &mut out.hidden,
-                    Says::Blank => &mut out.blank,
-                    Says::Outside => &mut out.outside,
-                } += pixels;
-            }
-        }
-        out
+        (0..ALONG * AWAY).map(move |i| {
+            let (along, away) = (share(i / AWAY, ALONG) - 0.5, share(i % AWAY, AWAY) * self.length_m);
+            let (point, normal) = self.at(along, away);
+            (point, normal, sight.pixels(&point, &normal, cell))
+        })
     }
 }
 

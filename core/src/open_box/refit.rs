@@ -5,6 +5,7 @@ use super::evidence::Sheet;
 use super::labels::{Labels, Present};
 use super::settle::{lowest_m, settled, LEVEL_COS};
 use super::sight::Sight;
+use super::surfaces::Surface;
 use super::upright::{lies, lower_side};
 use crate::cloud::CloudView;
 use crate::fit::{
@@ -111,8 +112,8 @@ fn readings_of(
         let sheet = Sheet::new(body, *role, &sight.eye);
         let (center, normal) = sheet.at(0.0, sheet.length_m / 2.0);
         let normal = if normal.dot(&(sight.eye - center)) < 0.0 { -normal } else { normal };
-        // A flap that is seen from its edge shows neither of its faces nor, but by some pixels, its ends.
-        let is_thin = present.is_thin(*role);
+        // A flap that is seen from its edge shows neither of its faces nor, but by some pixels, its ends; another view may see it well.
+        let is_thin = Surface::new(sight, body, *role).seen_from_edge(present.is_thin(*role)).is_from_edge();
         let ends = if is_thin { [None; 4] } else { ends(sight, body, present, *role) };
         let segment = PartSegment { role: *role, normal, center, ends: PartEnds::Told(ends), points };
         let readings = PartReadings::new(&segment, body, &sensor, &settings_of(*role));

@@ -121,6 +121,10 @@ impl Surface {
         Self { is_from_edge: is_thin && self.seen_at_sin < FROM_EDGE_SIN, ..self }
     }
 
+    pub fn is_from_edge(&self) -> bool {
+        self.is_from_edge
+    }
+
     /// Of a point of the object's frame: along the hinge or rim, away from it, off the face.
     pub fn place(&self, q: &Vec3) -> Option<[f64; 3]> {
         let off = self.off(q, &Vec3::z())?.0;
