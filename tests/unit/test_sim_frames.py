@@ -132,3 +132,9 @@ def test_a_frame_without_boxes_has_no_parts() -> None:
 def test_arguments_that_do_not_fit_are_refused(category: str, boxes: int | None, word: str) -> None:
     with pytest.raises(ValueError, match=word):
         make_frame(category, 0, boxes=boxes)
+
+
+def test_boxes_on_a_side_are_drawn_until_their_flaps_keep_clear_of_the_ground() -> None:
+    """Thirty draws of this one do not."""
+    (box,) = make_frame("lying", 9405, 7, boxes=1).truth.boxes
+    assert box.variant == "on_its_side"
