@@ -1,7 +1,7 @@
 r"""What more than one look brings: scenes seen from several places, answered frame by frame and fused.
 
-    boxwright synth out/sets/looks --count 36 --seed 3501 --boxes 1 --views 3
-    boxwright synth out/sets/looks_none --count 20 --seed 3502 --category none --views 3
+    boxwright synth out/sets/looks --count 36 --seed 3601 --boxes 1 --views 3
+    boxwright synth out/sets/looks_none --count 20 --seed 3602 --category none --views 3
     .venv/bin/python -m benchmarks.views out/sets/looks out/sets/looks_none -o docs/results/views.md
 
 A row is a way to answer: from the first frame; from the frame whose answer came out best, which only the truth tells;
