@@ -18,7 +18,7 @@ pub struct Evidence {
 }
 
 /// A panel of fewer pixels counts as none in the cloud (docs/formats.md, "The figures of merit").
-const LEAST_SEEN_PX: f64 = 400.0;
+pub const LEAST_SEEN_PX: f64 = 400.0;
 
 impl Evidence {
     /// Whether too little of the panel shows to be seen, and as little was looked through: it is turned its edge to the camera.

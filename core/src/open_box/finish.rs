@@ -54,11 +54,11 @@ const NO_LESS: f64 = 0.98;
 
 impl Finishing<'_> {
     /// The box that was chosen, or of those that could take its place the one that holds more once all are finished; `others` are
-    /// chosen beside it.
+    /// those of boxes beside it.
     ///
     /// # Errors
     /// As of the fit of the box that was chosen, where none takes its place.
-    pub fn best(&self, chosen: Chosen, others: &[&FoundBox]) -> Result<FoundBox, NotFitted> {
+    pub fn best(&self, chosen: Chosen, others: &[&Labels]) -> Result<FoundBox, NotFitted> {
         let first = self.finish(chosen.one);
         let instead = chosen.instead.into_iter().filter_map(|one| self.finish(one).ok());
         let best = instead.fold(first, |best, one| match best {
@@ -132,8 +132,8 @@ impl Finishing<'_> {
         self.sized(FoundBox { of_fewer, rivals, ..found })
     }
 
-    /// With a side that shows nothing where its flap is, where the box then ranks higher. Readings of `others` are theirs.
-    fn with_moved_side(&self, found: FoundBox, others: &[&FoundBox]) -> FoundBox {
+    /// With a side that shows nothing where its flap is, where the box then ranks higher. `others` are those of boxes beside it.
+    fn with_moved_side(&self, found: FoundBox, others: &[&Labels]) -> FoundBox {
         let is_asked = std::array::from_fn(|k| !is_told(&found, Role::Side(k), self.judgement));
         let ways = |moved: MovedSide| {
             let flaps = scan_flaps(self.sight, &moved.body, FINE_M, FINE_SCAN);

@@ -50,6 +50,17 @@ impl Labels {
         points.len() * self.stride * self.stride
     }
 
+    /// Marks its readings in an image that is so wide; of every `stride`-th column and row each stands for those up to the next.
+    pub fn mark(&self, width: usize, is_taken: &mut [bool]) {
+        let height = is_taken.len() / width;
+        for &point in self.parts.iter().flat_map(|(_, points)| points) {
+            let (row, column) = (point as usize / width, point as usize % width);
+            for row in row..(row + self.stride).min(height) {
+                is_taken[row * width + column..row * width + (column + self.stride).min(width)].fill(true);
+            }
+        }
+    }
+
     pub fn clear(&mut self, role: Role) {
         self.parts.iter_mut().filter(|(r, _)| *r == role).for_each(|(_, points)| points.clear());
     }
@@ -62,4 +73,18 @@ pub fn roles(present: &Present) -> Vec<Role> {
     out.extend((0..4).filter(|&k| present.flaps[k]).map(Role::Flap));
     out.extend((0..4).filter(|&k| present.tucks[k]).map(Role::Tuck));
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn readings_of_coarse_labels_stand_for_their_neighbours() {
+        let labels = |points: &[u32], stride: usize| Labels { parts: vec![(Role::Base, points.to_vec())], stride };
+        let mut out = vec![false; 64 * 48];
+        [labels(&[65, 47 * 64 + 62], 3), labels(&[5], 1)].iter().for_each(|labels| labels.mark(64, &mut out));
+        let set: Vec<usize> = (0..out.len()).filter(|&i| out[i]).collect();
+        assert_eq!(set, [5, 65, 66, 67, 129, 130, 131, 193, 194, 195, 3070, 3071]);
+    }
 }

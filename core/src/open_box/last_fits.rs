@@ -6,6 +6,7 @@ use super::choose::{choose, excludes, Chosen};
 use super::finish::Finishing;
 use super::found_box::FoundBox;
 use super::judgement::Judgement;
+use super::labels::Labels;
 use super::refused::{Refusal, Refused};
 use super::told::refusal;
 use crate::fit::FittedBody;
@@ -36,17 +37,18 @@ pub fn last_fits(mut found: Vec<FoundBox>, finishing: &Finishing, are_second: bo
         let new: Vec<Chosen> = chosen.into_iter().filter(is_new).collect();
         let (new, hopeless): (Vec<Chosen>, Vec<Chosen>) =
             new.into_iter().partition(|chosen| !is_hopeless(&chosen.one, finishing.judgement));
-        let likely: Vec<FoundBox> =
-            new.iter().map(|chosen| &chosen.one).filter(|one| one.probability >= EVEN).cloned().collect();
-        let end = |chosen: Chosen| {
-            let body = chosen.one.solution.body.clone();
-            let new = likely.iter().filter(|one| one.solution.body != body);
-            let others: Vec<&FoundBox> = new.chain(told.iter().map(|done| &done.one)).collect();
-            (body, finishing.best(chosen, &others))
+        let is_likely = |one: &FoundBox| one.probability >= EVEN;
+        let held: Vec<Option<Labels>> =
+            new.iter().map(|chosen| is_likely(&chosen.one).then(|| chosen.one.labels.clone())).collect();
+        let end = |(number, chosen): (usize, Chosen)| {
+            let beside =
+                held.iter().enumerate().filter(|(other, _)| *other != number).filter_map(|(_, held)| held.as_ref());
+            let others: Vec<&Labels> = beside.chain(told.iter().map(|done| &done.one.labels)).collect();
+            (chosen.one.solution.body.clone(), finishing.best(chosen, &others))
         };
         let is_unlikely = |one: &FoundBox| is_second_choice && finished_probability(one, finishing.judgement) < EVEN;
         let (mut failed, mut all_fitted) = (Vec::new(), true);
-        let ended = new.into_par_iter().map(end).collect::<Vec<_>>();
+        let ended = new.into_par_iter().enumerate().map(end).collect::<Vec<_>>();
         for (chosen, one) in ended {
             match one {
                 Ok(one) if is_unlikely(&one) => {

@@ -1,6 +1,6 @@
 //! Boxes one of whose sides shows nothing: it may as well stand where a segment is its flap.
 
-use super::evidence::Sheet;
+use super::evidence::{Sheet, LEAST_SEEN_PX};
 use super::found_box::{FoundBox, FINE_M};
 use super::hanging::{put_flap, scan_flap, FINE_SCAN};
 use super::labels::{Labels, Present};
@@ -10,8 +10,8 @@ use crate::fit::{edge_place, AtRim, FittedBody, Rim, Role};
 
 /// The sine of the angle between an edge and the plane of a segment that may be its flap.
 const MOST_TURN: f64 = 0.2;
-/// The plane of a flap that leans less than this off level does not tell where it meets the rim; its ends do where it leans less than
-/// that.
+/// A plane that leans less than the first off level (the sine) does not tell where it meets the rim's; the ends of a segment that
+/// leans less than the second do.
 const LEAST_LEAN: f64 = 0.2;
 const LEVEL_LEAN: f64 = 0.5;
 /// A side is moved by so much, metres, and leaves a box so long.
@@ -19,9 +19,7 @@ const MOVES_M: [f64; 2] = [0.008, 0.3];
 const EDGES_M: [f64; 2] = [0.05, 0.8];
 /// A segment that reaches so far beyond the ends of the edge is no flap's.
 const BEYOND_END_M: f64 = 0.04;
-const LEAST_READINGS: f64 = 400.0;
-/// Of the flap there so many pixels are no panel's, and this share of what it meets.
-const LEAST_FREE_PX: f64 = 400.0;
+/// Of the flap there as many pixels as make a panel seen are no panel's, and this share of what it meets.
 const LEAST_FREE_SHARE: f64 = 0.5;
 /// So many bodies are told, whose sides stand so far apart.
 const MOST: usize = 2;
@@ -44,14 +42,16 @@ pub fn moved_sides(
     sight: &Sight,
     patches: &[Patch],
     found: &FoundBox,
-    others: &[&FoundBox],
+    others: &[&Labels],
     is_asked: [bool; 4],
 ) -> Vec<MovedSide> {
     if is_asked.iter().all(|asked| !asked) {
         return Vec::new();
     }
-    let labels = std::iter::once(&found.labels).chain(others.iter().map(|other| &other.labels));
-    let is_taken = taken(sight.width, sight.height, labels);
+    let mut is_taken = vec![false; sight.points.len()];
+    std::iter::once(&found.labels)
+        .chain(others.iter().copied())
+        .for_each(|labels| labels.mark(sight.width, &mut is_taken));
     let mut moved = Vec::new();
     for side in (0..4).filter(|&side| is_asked[side]) {
         let mut moves: Vec<f64> = patches.iter().flat_map(|patch| moves_m(patch, &found.solution.body, side)).collect();
@@ -70,23 +70,9 @@ pub fn moved_sides(
     told
 }
 
-/// Which readings of an image are some panel's; of every `stride`-th column and row each stands for those up to the next.
-fn taken<'a>(width: usize, height: usize, labels: impl Iterator<Item = &'a Labels>) -> Vec<bool> {
-    let mut out = vec![false; width * height];
-    for labels in labels {
-        for &point in labels.parts.iter().flat_map(|(_, points)| points) {
-            let (row, column) = (point as usize / width, point as usize % width);
-            for row in row..(row + labels.stride).min(height) {
-                out[row * width + column..row * width + (column + labels.stride).min(width)].fill(true);
-            }
-        }
-    }
-    out
-}
-
 /// How far outwards side `k` would stand, were the segment its flap, metres.
 fn moves_m(patch: &Patch, body: &FittedBody, k: usize) -> Vec<f64> {
-    if patch.readings < LEAST_READINGS {
+    if patch.readings < LEAST_SEEN_PX {
         return Vec::new();
     }
     let rim = Rim::new(body, k);
@@ -110,13 +96,9 @@ fn moves_m(patch: &Patch, body: &FittedBody, k: usize) -> Vec<f64> {
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at.inward), high.max(at.inward)]);
         out.extend(ends.map(|end| -end));
     }
-    let is_box = |out_m: f64| within(out_m.abs(), MOVES_M) && within(body.edge_m(k + 1) + out_m, EDGES_M);
-    out.retain(|&out_m| is_box(out_m));
+    let within = |x: f64, [least, most]: [f64; 2]| (least..=most).contains(&x);
+    out.retain(|out_m| within(out_m.abs(), MOVES_M) && within(body.edge_m(k + 1) + out_m, EDGES_M));
     out
-}
-
-fn within(x: f64, [least, most]: [f64; 2]) -> bool {
-    (least..=most).contains(&x)
 }
 
 /// The body with that side that much further out and the flap that hangs there; `None` where none does, or one whose readings are
@@ -132,7 +114,7 @@ fn moved_side(sight: &Sight, found: &FoundBox, side: usize, out_m: f64, is_taken
     let (met_px, free_px) = sheet.met_and(sight, FINE_M, |index| !is_taken[index]);
     let mut present = found.present;
     (present.flaps[side], present.tucks[side], present.thin[side]) = (true, false, false);
-    let is_free = free_px > LEAST_FREE_PX && free_px > LEAST_FREE_SHARE * met_px;
+    let is_free = free_px > LEAST_SEEN_PX && free_px > LEAST_FREE_SHARE * met_px;
     is_free.then_some(MovedSide { body, present, side, out_m, free_px })
 }
 
@@ -190,13 +172,5 @@ mod tests {
         ] {
             assert_eq!(told(&patch), Vec::<f64>::new(), "{why}");
         }
-    }
-
-    #[test]
-    fn readings_of_coarse_labels_stand_for_their_neighbours() {
-        let labels = |points: &[u32], stride: usize| Labels { parts: vec![(Role::Base, points.to_vec())], stride };
-        let out = taken(64, 48, [labels(&[65, 47 * 64 + 62], 3), labels(&[5], 1)].iter());
-        let set: Vec<usize> = (0..out.len()).filter(|&i| out[i]).collect();
-        assert_eq!(set, [5, 65, 66, 67, 129, 130, 131, 193, 194, 195, 3070, 3071]);
     }
 }

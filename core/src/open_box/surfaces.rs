@@ -40,8 +40,8 @@ pub struct Surface {
     slack_m: f64,
 }
 
-/// Below this sine of the angle that it is seen at, a flap is seen from its edge.
-const FROM_EDGE_SIN: f64 = 0.14;
+/// A flap that is seen at less than this angle, which is as good as its sine, is seen from its edge: beyond, it shows more of its face.
+pub const FROM_EDGE_RAD: f64 = 0.14;
 
 impl Surface {
     pub fn new(sight: &Sight, body: &FittedBody, role: Role) -> Self {
@@ -118,7 +118,7 @@ impl Surface {
 
     /// The same of a flap that was found from its edge, where that is how it is seen.
     pub fn seen_from_edge(self, is_thin: bool) -> Self {
-        Self { is_from_edge: is_thin && self.seen_at_sin < FROM_EDGE_SIN, ..self }
+        Self { is_from_edge: is_thin && self.seen_at_sin < FROM_EDGE_RAD, ..self }
     }
 
     pub fn is_from_edge(&self) -> bool {

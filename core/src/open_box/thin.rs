@@ -8,13 +8,12 @@ use super::hanging::{longest_flap_m, put_flap, FLAP_ANGLES_RAD};
 use super::hinge_line::HingeLine;
 use super::labels::Labels;
 use super::sight::Sight;
+use super::surfaces::FROM_EDGE_RAD;
 use crate::fit::{lid_length_m, FitSettings, FittedBody, Role};
 
 /// To either side of the angle at which the eye lies in the flap's plane so many angles are asked, half a degree apart.
 const STEPS: usize = 16;
-const STEP_RAD: f64 = 0.00875;
-/// From there on a flap shows more of its face than of its edge, and scans see it.
-const WINDOW_RAD: f64 = STEPS as f64 * STEP_RAD;
+const STEP_RAD: f64 = FROM_EDGE_RAD / STEPS as f64;
 const ANGLES: usize = 2 * STEPS + 1;
 /// A flap's readings lie so far off the middle of its board, and half a pixel; three times as far there are hardly more.
 const HALF_SLAB_M: f64 = 0.0035;
@@ -41,8 +40,9 @@ pub fn thin_flaps(sight: &Sight, body: &FittedBody, labels: &Labels, is_asked: [
         return [None; 4];
     }
     let mut is_taken = vec![false; sight.points.len()];
-    let others = labels.parts.iter().filter(|(role, _)| !matches!(role, Role::Flap(k) if is_asked[*k]));
-    others.flat_map(|(_, points)| points).for_each(|&point| is_taken[point as usize] = true);
+    let mut others = labels.clone();
+    (0..4).filter(|&k| is_asked[k]).for_each(|k| others.clear(Role::Flap(k)));
+    others.mark(sight.width, &mut is_taken);
     std::array::from_fn(|k| is_asked[k].then(|| thin_flap(sight, body, &is_taken, k))?)
 }
 
@@ -109,7 +109,7 @@ fn readings_near(sight: &Sight, hinge: &HingeLine, is_taken: &[bool], edge_on: f
             let most_off = HALF_SLAB_M + half_pixel_m;
             let is_near = along.abs() < hinge.half_m + BEYOND_END_M
                 && (LEAST_REACH_M..longest_m).contains(&away)
-                && off.abs() < away * WINDOW_RAD.tan() + WIDE * most_off;
+                && off.abs() < away * FROM_EDGE_RAD.tan() + WIDE * most_off;
             if is_near && !hinge.is_of_others(sight.eye.z, look, FINE_M) {
                 out.push(Near { along, away, off, most_off });
             }
@@ -121,7 +121,7 @@ fn readings_near(sight: &Sight, hinge: &HingeLine, is_taken: &[bool], edge_on: f
 /// Columns and rows that see a flap at any of the angles: left, right, top, bottom, inclusive.
 fn window_px(sight: &Sight, hinge: &HingeLine, edge_on: f64, longest_m: f64) -> Option<[usize; 4]> {
     let mut bounds = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
-    for turn in [-WINDOW_RAD, WINDOW_RAD] {
+    for turn in [-FROM_EDGE_RAD, FROM_EDGE_RAD] {
         let way = hinge.directions(edge_on + turn).0;
         for (side, reach_m) in [(-1.0, 0.0), (1.0, 0.0), (-1.0, longest_m), (1.0, longest_m)] {
             let corner = hinge.middle + hinge.along * (side * (hinge.half_m + BEYOND_END_M)) + way * reach_m;
