@@ -26,6 +26,9 @@ FALLING = (1136, 22, "flap_1")
 DRAGGED = (1136, 144)
 """A small box that slid where a finger on a flap's edge dragged it the way that its side leant."""
 
+IN_THE_WAY = ((1140, 114, "ordinary", "flap_1", "the support"), (1143, 239, "pre_broken", "flap_1", "side_1"))
+"""Flaps that hang low, which a push at their edges would turn: what is named last leaves the fingers no room there."""
+
 NO_FORK = {"fork": {"most_depth_m": 0.0}}
 REGARDLESS = {"most_strain": 1e9, **NO_FORK}
 
@@ -49,6 +52,15 @@ def test_a_flap_that_would_move_the_box_is_told_and_physics_agrees() -> None:
                 assert not careless.flaps[name].held, f"problem {number}: {name}"
                 counted += 1
     assert counted >= 3
+
+
+def test_what_stands_in_the_way_is_told_where_the_box_would_bear_a_push() -> None:
+    for seed, number, crease, name, obstacle in IN_THE_WAY:
+        problem = draw_problem(number, seed)
+        assert ask_bearable(measured_box(problem.model, 0, np.eye(4)), told_of(crease))[name]
+        flap = _plan(problem, told_of(crease)).flaps[name]
+        assert flap.status == "blocked"
+        assert f"fingers comes too near to {obstacle}" in (flap.reason or "")
 
 
 def test_a_couple_turns_what_a_push_would_move_the_box_for() -> None:

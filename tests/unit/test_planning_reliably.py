@@ -21,8 +21,8 @@ CLEARANCE_M = 0.005
 ROUNDING_M = 1e-6
 OVER_THE_RIM = (1128, 45)
 """A box out of square: flaps reach over the rim's corners, and pass their neighbours only where ends give way."""
-OVER_OTHERS = (1129, 9, "flap_3")
-"""A lid over flaps so short that fingers on it, closed, would be too near to them; wide searches find the way."""
+OVER_OTHERS = (1142, 228, "flap_1")
+"""A flap over others so short that fingers on it, closed, would be too near to them."""
 ON_STACKS = {(2013, 0): "flap_2"}
 """A flap that comes to lie on others that overlap, and springs back beyond what counts as closed by itself."""
 IN_TWO = (2011, 31, "flap_1")
@@ -38,8 +38,8 @@ ON_RIMS = (1135, 8)
 """Four flaps; two lie on one another and on the rims: the others come to lie on their corners, and no press helps."""
 SPRINGS_UP = (1135, 67, "flap_1")
 """A flap that those across from one another prop up so far that its crease lifts it off them."""
-LEFT = (1134, 165, "flap_1")
-"""A flap of a high box, beside a tuck: after all others the widest search finds how."""
+LEFT = (1142, 44, "flap_2")
+"""A flap that after all others the last searches find how to push."""
 BY_THE_TIP = (1134, 68, "flap_3")
 """One that is held with the very tip alone, or near its hinge."""
 JAMMING = ((1142, 218), (1141, 110))
@@ -48,15 +48,20 @@ ON_A_LID = (1142, 70, ("flap_1", "flap_3"))
 """Short flaps over the corners of a lid that lies lower than it is told."""
 ON_THE_BASE = (1142, 113, "flap_3")
 """A flap of a flat box that meets its base before it is as far beyond closed as its crease gives back."""
+ASLANT = (1143, 86, "flap_2")
+"""A flap far from the arm whose edge alone is in reach, with the finger aslant on it."""
+NEAR_THE_SUPPORT = (1143, 59, "flap_1")
+"""A flap of a flat box: a finger has room below it between the wide search's contacts alone."""
 STRANDED = {7: 2, 12: 1, 13: 2, 25: 1}
 """By number: boxes of seed 2013, and to how many flaps an arm that knows straight lines alone finds no way."""
 
 STRAIGHT_ALONE = {"transit_tries": 0, "shortcuts": 0}
 # Not near its hinge, nor with the very tip.
 FIRMLY: dict[str, Any] = {"fine_contacts": {"least_lever": 0.2, "least_hook_m": 0.006, "most_lean": 0.95}}
-WIDE = {**FIRMLY, "beams": [16, 60]}
 USUAL = {"beams": [16, 50]}
 ONE_SEARCH = {"beams": [16]}
+SQUARE = {"slanting_square": 0.6}
+WIDE_APART = {"finest_step_m": 0.02, "most_finest_contacts": [13, 9]}
 PUSHED_HOME = {"least_lay_rad": 9.0}
 AT_ONE_GO = {"fork": {"most_stages": 1}}
 GENTLE_N = 60.0
@@ -88,8 +93,8 @@ def test_flaps_that_reach_over_the_rim_pass_their_neighbours() -> None:
 
 def test_a_lid_over_short_flaps_is_let_go_where_it_comes_to_rest_closed() -> None:
     seed, number, name = OVER_OTHERS
-    plan = _plan(seed, number, "pre_broken", WIDE)
-    assert _plan(seed, number, "pre_broken", WIDE | PUSHED_HOME).flaps[name].status == "blocked"
+    plan = _plan(seed, number, "pre_broken")
+    assert _plan(seed, number, "pre_broken", PUSHED_HOME).flaps[name].status == "blocked"
     last = [segment for segment in plan.segments if segment.kind == "push" and segment.flap == name][-1]
     assert last.hinge_angle_rad is not None
     assert np.radians(2.0) < last.hinge_angle_rad[-1] < np.radians(12.0)
@@ -118,7 +123,7 @@ def test_without_wider_searches_the_first_ones_reason_is_told() -> None:
 def test_a_flap_is_held_with_the_very_tip_where_nothing_else_reaches_it() -> None:
     seed, number, name = BY_THE_TIP
     plan = _plan(seed, number, "ordinary")
-    assert _plan(seed, number, "ordinary", FIRMLY).flaps[name].status == "blocked"
+    assert _plan(seed, number, "ordinary", FIRMLY | USUAL).flaps[name].status == "blocked"
     assert plan.flaps[name].status == "planned"
     assert _keeps_clear(seed, number, plan)
     assert _all_held(seed, number, "ordinary", plan)
@@ -134,6 +139,24 @@ def test_a_second_push_closes_what_the_first_leaves_half_way() -> None:
     assert [segment.gripper_opening_m for segment in pushes] == [0.0, 0.0]
     assert _keeps_clear(seed, number, plan)
     assert _all_held(seed, number, "pre_broken", plan)
+
+
+@pytest.mark.parametrize(
+    ("box", "crease", "without"),
+    [
+        (ASLANT, "pre_broken", SQUARE),
+        (NEAR_THE_SUPPORT, "ordinary", WIDE_APART),
+    ],
+)
+def test_what_the_last_searches_find_room_for_is_held(
+    box: tuple[int, int, str], crease: str, without: dict[str, Any]
+) -> None:
+    seed, number, name = box
+    plan = _plan(seed, number, crease)
+    assert _plan(seed, number, crease, without).flaps[name].status == "blocked"
+    assert plan.flaps[name].status == "planned"
+    assert _keeps_clear(seed, number, plan)
+    assert _all_held(seed, number, crease, plan)
 
 
 def test_where_the_arm_finds_no_way_to_a_flap_the_others_are_planned_as_it_stands() -> None:

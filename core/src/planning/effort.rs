@@ -9,7 +9,7 @@ pub enum Effort {
     Quick,
     /// The next one among finer contacts, then motions one after the other.
     Thorough,
-    /// The last and widest: for what stays open after all others.
+    /// The last ones and the widest: for what stays open after all others.
     Deep,
 }
 
@@ -21,7 +21,11 @@ impl Effort {
 
     /// Its own searches among those of the settings.
     pub fn searches(self) -> Range<usize> {
-        self as usize..self as usize + 1
+        match self {
+            Self::Quick => 0..1,
+            Self::Thorough => 1..2,
+            Self::Deep => 2..4,
+        }
     }
 }
 
@@ -38,7 +42,7 @@ mod tests {
         assert_eq!(Effort::Deep.up_to().count(), 3);
         assert_eq!(Effort::Quick.up_to().collect::<Vec<_>>(), [Effort::Quick]);
         let searches: Vec<usize> = Effort::Deep.up_to().flat_map(Effort::searches).collect();
-        assert_eq!(searches, [0, 1, 2]);
+        assert_eq!(searches, [0, 1, 2, 3]);
         assert_eq!((FIRST, USUAL), (Effort::Quick.searches(), 0..Effort::Thorough.searches().end));
     }
 }

@@ -20,6 +20,8 @@ pub struct Layers<'a, G: Guard> {
     pub flap: usize,
     /// Of what moves the box.
     pub most_strain: f64,
+    /// Of first postures that differ by whole turns of joints alone, or by half a turn of the gripper, one is looked at.
+    pub alike_once: bool,
     /// Where all flaps are; this one moves.
     pub moment: &'a Moment,
     /// Hinge angles, first to last, rad, and where all flaps are then.

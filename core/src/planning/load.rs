@@ -172,6 +172,19 @@ impl Stand {
             worst.max(over_n_m / (self.weight_n * lever_m))
         })
     }
+
+    /// The share that a push square to a flap's face is which turns it on at an angle, at the best place of it.
+    pub fn least_strain(&self, fold: &Fold, flap: &Flap, half_board_m: f64, angle_rad: f64) -> f64 {
+        let frame = flap.frame(angle_rad);
+        let places = (0..PLACES * PLACES).map(|k| [k % PLACES, k / PLACES].map(|k| (k + 1) as f64 / PLACES as f64));
+        let strains = places.map(|[along, away]| {
+            let lever_m = away * flap.length_m();
+            let at = frame.at(along * flap.hinge_length_m(), lever_m, half_board_m);
+            let push_n = fold.closing_n_m(angle_rad).max(0.0) / lever_m;
+            self.strain(&at, &(frame.push() * push_n))
+        });
+        strains.fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// A box's folds, in the order of its flaps, and its stand; None where it has no base.
@@ -203,17 +216,8 @@ impl Load {
 
     /// The same at one angle.
     pub fn strain_at(&self, problem: &BoxProblem, flap: usize, angle_rad: f64) -> f64 {
-        let (Some(stand), fold) = (&self.stand, self.folds[flap]) else { return 0.0 };
-        let flap = &problem.flaps[flap];
-        let frame = flap.frame(angle_rad);
-        let places = (0..PLACES * PLACES).map(|k| [k % PLACES, k / PLACES].map(|k| (k + 1) as f64 / PLACES as f64));
-        let strains = places.map(|[along, away]| {
-            let lever_m = away * flap.length_m();
-            let at = frame.at(along * flap.hinge_length_m(), lever_m, problem.thickness_m / 2.0);
-            let push_n = fold.closing_n_m(angle_rad).max(0.0) / lever_m;
-            stand.strain(&at, &(frame.push() * push_n))
-        });
-        strains.fold(f64::INFINITY, f64::min)
+        let (Some(stand), fold) = (&self.stand, &self.folds[flap]) else { return 0.0 };
+        stand.least_strain(fold, &problem.flaps[flap], problem.thickness_m / 2.0, angle_rad)
     }
 }
 

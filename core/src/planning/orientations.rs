@@ -48,6 +48,11 @@ impl OrientationGrid {
     pub fn size(&self) -> usize {
         self.rotations.len()
     }
+
+    /// Of two orientations half a turn about the tool's axis apart, in which a gripper takes up the same room: is it the second?
+    pub fn is_half_turned(orientation: usize) -> bool {
+        orientation % ROLLS >= ROLLS / 2
+    }
 }
 
 fn nearest_first(from: &UnitQuaternion<f64>, all: &[UnitQuaternion<f64>]) -> Vec<(usize, f64)> {
@@ -95,6 +100,19 @@ pub fn blend(parts: &[(UnitQuaternion<f64>, f64)]) -> UnitQuaternion<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn half_turned_orientations_are_others_turned_by_half_a_turn() {
+        let grid = OrientationGrid::fine();
+        let half = UnitQuaternion::from_axis_angle(&Vec3::z_axis(), std::f64::consts::PI);
+        let turned = (0..grid.size()).filter(|&k| OrientationGrid::is_half_turned(k));
+        let pairs = turned.filter(|&k| {
+            let other = k - ROLLS / 2;
+            !OrientationGrid::is_half_turned(other)
+                && (grid.rotations[other] * half).angle_to(&grid.rotations[k]) < 1e-6
+        });
+        assert_eq!(2 * pairs.count(), grid.size());
+    }
 
     #[test]
     fn every_direction_has_neighbours_and_its_own_axes_are_there() {

@@ -75,16 +75,16 @@ impl<G: Guard> Pusher<'_, G> {
             moments,
             caught: Cell::new(0),
         };
-        let fine_settings = self.settings.with_fine_contacts();
-        let fine = self.contacts.finer(&fine_settings);
+        let finer_settings = self.settings.with_finer_contacts();
         self.guard.explain_anew();
         let mut why = None;
         for (k, &beam) in self.settings.beams.iter().enumerate().filter(|(k, _)| self.searches.contains(k)) {
             if search.is_caught() {
                 break;
             }
-            let contacts = if k == 0 { &self.contacts } else { &fine };
-            match search.run(beam, contacts) {
+            let finer =
+                k.checked_sub(1).map(|finer| self.contacts.finer(&finer_settings[finer.min(finer_settings.len() - 1)]));
+            match search.run(beam, finer.as_ref().unwrap_or(&self.contacts), k > 0) {
                 Ok(motion) => return Ok(motion),
                 Err(found) => why = Some(found),
             }
@@ -177,13 +177,24 @@ impl<G: Guard> Pusher<'_, G> {
         Ok(motion)
     }
 
+    /// Does the box bear a push at an angle, at some place of the flap?
+    fn is_borne(&self, angle_rad: f64) -> bool {
+        let Contacts { fold, stand, flap, half_board_m, .. } = &self.contacts;
+        stand.is_none_or(|stand| stand.least_strain(fold, flap, *half_board_m, angle_rad) <= self.most_strain)
+    }
+
     pub fn why_stuck(&self, angle_rad: f64, at_start: bool, tally: &Tally) -> WhyNot {
         let degrees = angle_rad.to_degrees();
         let place = if at_start { "where it stands".to_string() } else { format!("at {degrees:.0} degrees") };
-        let near = tally
-            .commonest(|obstacle| matches!(obstacle, Obstacle::Near { .. } | Obstacle::NoWay { .. } | Obstacle::Moves));
+        // Where the box bears a push at some place, what is in the way there is the reason, however many places it does not bear.
+        let is_borne = self.is_borne(angle_rad);
+        let counts = |obstacle: &Obstacle| !(is_borne && *obstacle == Obstacle::Moves);
+        let is_near = |obstacle: &Obstacle| {
+            matches!(obstacle, Obstacle::Near { .. } | Obstacle::NoWay { .. } | Obstacle::Moves) && counts(obstacle)
+        };
+        let near = tally.commonest(is_near);
         let limit = tally.commonest(|obstacle| matches!(obstacle, Obstacle::Limit { .. }));
-        let any = tally.commonest(|_| true);
+        let any = tally.commonest(counts).or_else(|| tally.commonest(|_| true));
         let (status, obstacle) = match (near, limit, any) {
             (Some(near), _, _) => (Status::Blocked, near),
             (None, Some(limit), _) => (Status::JointLimit, limit),

@@ -26,6 +26,10 @@ pub struct Posture {
 }
 
 impl Posture {
+    pub fn new(positions: JointPositions, branch: u8, limit_penalty: f64) -> Self {
+        Self { positions, branch, limit_penalty, cost: f64::INFINITY, before: 0 }
+    }
+
     pub fn offer(&mut self, cost: f64, before: usize) {
         if cost < self.cost {
             (self.cost, self.before) = (cost, before);
@@ -99,6 +103,17 @@ impl<G: Guard> Layers<'_, G> {
     ) -> Option<Pose> {
         let frame = self.contacts.flap.frame(self.angles_rad[layer]);
         let grip = self.contacts.grip(&frame, self.place_m(place), &self.contacts.rotation(orientation))?;
+        self.reached_with(layer, grip, near, tally)
+    }
+
+    /// The same of a contact whose tool pose is known.
+    pub fn reached_with(
+        &self,
+        layer: usize,
+        grip: Grip,
+        near: Option<&JointPositions>,
+        tally: &mut Tally,
+    ) -> Option<Pose> {
         if grip.strain > self.most_strain {
             tally.add(Obstacle::Moves);
             return None;
@@ -115,12 +130,8 @@ impl<G: Guard> Layers<'_, G> {
         if solutions.is_empty() {
             tally.add(out_of_reach(self.arm, pose));
         }
-        let postures = solutions.iter().map(|solution| Posture {
-            positions: solution.positions,
-            branch: solution.branch,
-            limit_penalty: limit_penalty(self.arm, &solution.positions),
-            cost: f64::INFINITY,
-            before: 0,
+        let postures = solutions.iter().map(|solution| {
+            Posture::new(solution.positions, solution.branch, limit_penalty(self.arm, &solution.positions))
         });
         Some(Pose { grip, postures: postures.collect() })
     }

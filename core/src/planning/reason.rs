@@ -76,6 +76,12 @@ impl Tally {
         *self.counts.entry(obstacle).or_default() += 1;
     }
 
+    pub fn add_many(&mut self, obstacle: Obstacle, count: usize) {
+        if count > 0 {
+            *self.counts.entry(obstacle).or_default() += count;
+        }
+    }
+
     pub fn any(&self, passes: impl Fn(&Obstacle) -> bool) -> bool {
         self.counts.keys().any(passes)
     }

@@ -30,7 +30,8 @@ pub struct Search<'a, 'b, G: Guard> {
 
 impl<G: Guard> Search<'_, '_, G> {
     /// From where the flap stands, and where that ends on the way, from its end: some ways narrow towards it.
-    pub fn run(&self, beam: usize, contacts: &Contacts<'_>) -> Result<PushMotion, WhyNot> {
+    /// Where `alike_once`, of first postures that differ by whole turns of joints alone, or by half a turn of the gripper, one is looked at.
+    pub fn run(&self, beam: usize, contacts: &Contacts<'_>, alike_once: bool) -> Result<PushMotion, WhyNot> {
         let pusher = self.pusher;
         let layers = Layers {
             arm: pusher.arm,
@@ -38,6 +39,7 @@ impl<G: Guard> Search<'_, '_, G> {
             contacts,
             settings: pusher.settings,
             most_strain: pusher.most_strain,
+            alike_once,
             flap: pusher.flap,
             moment: &self.pressed,
             angles_rad: &self.angles_rad,

@@ -59,6 +59,10 @@ pub struct PlanningSettings {
     pub least_lever: f64,
     /// What replaces these where a first search led nowhere.
     pub fine_contacts: FineContacts,
+    /// The same for what all else leaves open: as fine, closer together; then as fine, but pressed less squarely.
+    pub finest_step_m: f64,
+    pub most_finest_contacts: [usize; 2],
+    pub slanting_square: f64,
     /// The finger is planned this far off the face, so that it is not in the board between two samples.
     pub touch_gap_m: f64,
     /// How far the tool's axis may lean back over the flap's edge, as the sine.
@@ -210,6 +214,15 @@ impl PlanningSettings {
             ..self.clone()
         }
     }
+
+    /// With the contacts of each search but the first, one after the other.
+    pub fn with_finer_contacts(&self) -> [Self; 3] {
+        let fine = self.with_fine_contacts();
+        let (step_m, most) = (self.finest_step_m, self.most_finest_contacts);
+        let finest = Self { contact_step_m: step_m, most_contacts: most, ..fine.clone() };
+        let slanting = Self { least_square: self.slanting_square, ..fine.clone() };
+        [fine, finest, slanting]
+    }
 }
 
 impl Default for PlanningSettings {
@@ -236,7 +249,7 @@ impl Default for PlanningSettings {
             fork: ForkSettings::default(),
             layer_rad: 8f64.to_radians(),
             sample_rad: 1f64.to_radians(),
-            beams: vec![16, 50, 150],
+            beams: vec![16, 50, 100, 50],
             contact_step_m: 0.04,
             most_contacts: [7, 5],
             contact_inset_m: 0.012,
@@ -247,6 +260,9 @@ impl Default for PlanningSettings {
             least_hook_m: 0.018,
             least_square: 0.6,
             fine_contacts: FineContacts::default(),
+            finest_step_m: 0.012,
+            most_finest_contacts: [21, 15],
+            slanting_square: 0.3,
             most_turn_rad: 0.9,
             most_sample_turn_rad: 0.25,
             stand_off_m: 0.015,
