@@ -5,7 +5,7 @@ use super::gripper::Gripper;
 use super::inverse::MAX_SOLUTIONS;
 use super::joint::{Joint, Limits};
 use super::model::{Arm, Link, FINGERS, GRIPPER};
-use super::numeric::NumericSettings;
+use super::numeric_settings::NumericSettings;
 use super::opw::Opw;
 use super::positions::JointPositions;
 use super::shape::Shape;

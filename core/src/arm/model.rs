@@ -1,8 +1,6 @@
-use super::check;
-use super::file::RobotFile;
 use super::gripper::Gripper;
 use super::joint::Joint;
-use super::numeric::NumericSettings;
+use super::numeric_settings::NumericSettings;
 use super::opw::Opw;
 use super::positions::JointPositions;
 use super::shape::Shape;
@@ -40,24 +38,6 @@ pub const FINGERS: &str = "fingers";
 pub const GRIPPER: &str = "gripper";
 
 impl Arm {
-    /// An arm from the text of its file (docs/robots.md).
-    ///
-    /// # Errors
-    /// Names the line or key that does not fit, and what would.
-    pub fn from_toml(text: &str) -> Result<Self> {
-        let file: RobotFile = toml::from_str(text).map_err(|error| InputError::of_toml(text, &error))?;
-        check::arm(file)
-    }
-
-    /// An arm from the same keys as JSON.
-    ///
-    /// # Errors
-    /// As [`Arm::from_toml`].
-    pub fn from_json(text: &str) -> Result<Self> {
-        let file: RobotFile = serde_json::from_str(text).map_err(|error| InputError::new(error.to_string()))?;
-        check::arm(file)
-    }
-
     pub fn axes(&self) -> usize {
         self.joints.len()
     }
