@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::belief::Sums;
 use crate::free_space::PartState;
 use crate::geometry::Vec3;
+use crate::model::Calibration;
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ObjectAnswer {
@@ -29,6 +29,16 @@ pub struct ObjectAnswer {
     /// Where all assignments were summed; what the parts' probabilities are made of.
     #[serde(skip)]
     pub sums: Option<Sums>,
+}
+
+/// What sums over all assignments say of an object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sums {
+    /// Of the whole assignment.
+    pub assignment: f64,
+    /// The share of the probability that the sums left out, at most (eq. 51).
+    pub unsummed: f64,
+    pub calibration: Calibration,
 }
 
 /// A given size, its outer lengths along the object's length, width and height.

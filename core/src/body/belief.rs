@@ -1,17 +1,7 @@
 //! How probable it is that each found part is right: what the sums over assignments say, and what the rays say.
 
 use super::answer::{ObjectAnswer, PartAnswer};
-use crate::model::{logit, Calibration, Evidence};
-
-/// What sums over all assignments say of an object.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sums {
-    /// Of the whole assignment.
-    pub assignment: f64,
-    /// The share of the probability that the sums left out, at most (eq. 51).
-    pub unsummed: f64,
-    pub calibration: Calibration,
-}
+use crate::model::{logit, Evidence};
 
 impl ObjectAnswer {
     /// Tells every found part's probability anew: from sums, and from the states that the rays gave it by now.
@@ -48,9 +38,10 @@ impl ObjectAnswer {
 mod tests {
     use std::collections::BTreeMap;
 
-    use super::super::answer::InferenceAnswer;
+    use super::super::answer::{InferenceAnswer, Sums};
     use super::*;
     use crate::free_space::PartState;
+    use crate::model::Calibration;
 
     fn part(marginal: Option<f64>, state: Option<[f64; 3]>) -> PartAnswer {
         let state = state.map(|[seen, hidden, absent]| PartState { seen, hidden, absent });

@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::answer::{
-    array, corner_arrays, InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer,
+    array, corner_arrays, InferenceAnswer, JointAnswer, ObjectAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer, Sums,
 };
-use super::belief::Sums;
 use super::box_frame::{opening_direction, BoxFrame};
 use super::box_panels::{base_panel, flap_panel, side_panel, tuck_panel, Hinge, Panel};
 use super::free::hinge_between;

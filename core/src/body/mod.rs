@@ -11,7 +11,6 @@ mod ring;
 
 pub use answer::{
     InferenceAnswer, JointAnswer, JointSigma, ObjectAnswer, ParameterAnswer, PartAnswer, PoseAnswer, ScoreTermAnswer,
-    SizeAnswer,
+    SizeAnswer, Sums,
 };
-pub use belief::Sums;
 pub use build::build_object;

@@ -8,6 +8,7 @@ mod incumbents;
 mod marginals;
 mod prices;
 mod problem;
+mod rules;
 mod search;
 mod settings;
 mod shortlist;
@@ -17,6 +18,6 @@ mod symmetry;
 mod tighten;
 
 pub use marginals::{marginals, Marginals};
-pub use problem::Rules;
+pub use rules::Rules;
 pub use settings::ExactSettings;
 pub use solve::{solve, Solution};

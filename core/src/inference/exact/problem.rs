@@ -1,20 +1,9 @@
 //! What is searched: scores, symmetries, and which assignments are wanted.
 
+use super::rules::Rules;
 use super::shortlist::Shortlist;
 use super::symmetry::{Symmetries, UNDECIDED};
 use crate::inference::potentials::Potentials;
-use crate::model::Accept;
-
-/// Which assignments are wanted.
-#[derive(Debug, Clone, Copy)]
-pub struct Rules<'a> {
-    /// How many, best first.
-    pub most: usize,
-    /// None that scores less.
-    pub floor: f64,
-    /// None that this refuses.
-    pub accept: Option<&'a Accept>,
-}
 
 pub struct Problem<'a> {
     pub potentials: &'a Potentials,

@@ -1,6 +1,6 @@
 //! The best assignments so far.
 
-use super::problem::Rules;
+use super::rules::Rules;
 
 /// At most `most` assignments, best first; of equal scores the earlier in the order of states first.
 #[derive(Debug)]

@@ -1,6 +1,7 @@
 use super::checks::require_finite;
 use super::factors::Factors;
-use super::problem::{assignment, Problem, Rules};
+use super::problem::{assignment, Problem};
+use super::rules::Rules;
 use super::search::Search;
 use super::settings::ExactSettings;
 use super::shortlist::Shortlist;

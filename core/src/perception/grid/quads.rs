@@ -1,5 +1,9 @@
-use super::rays::{FARTHEST_M, NEAREST_M};
 use wide::f32x4;
+
+/// Nearer than this is no reading of a depth camera, metres.
+pub const NEAREST_M: f32 = 0.05;
+/// Farther than this, or farther aside, neither.
+pub const FARTHEST_M: f32 = 1e4;
 
 /// Pixels that are looked at together: the width of the processor's smallest vectors.
 pub const QUAD: usize = 4;

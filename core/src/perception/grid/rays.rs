@@ -2,11 +2,6 @@ use super::pose::Pose;
 use super::quads::{Quad, QUAD};
 use std::borrow::Cow;
 
-/// Nearer than this is no reading of a depth camera, metres.
-pub const NEAREST_M: f32 = 0.05;
-/// Farther than this, or farther aside, neither.
-pub const FARTHEST_M: f32 = 1e4;
-
 /// An organized cloud in its camera's frame: x right, y down (of any roll), z along the optical axis, metres.
 pub struct Rays<'a> {
     pub points: Cow<'a, [[f32; 3]]>,
