@@ -141,7 +141,7 @@ fn hinge_sigma(solution: &Solution, role: Role, at: &FittedHinge, scale: SigmaSc
         by.fixed_view_mut::<3, 1>(3, place).copy_from(&axis);
         by[(6, place)] = (ahead.position_rad - behind.position_rad) / (2.0 * STEP);
     }
-    let spread = &by * &solution.covariance * by.transpose();
+    let spread = &by * &*solution.covariance * by.transpose();
     let sigma = |i: usize, scale: f64| spread[(i, i)].max(0.0).sqrt() * scale;
     // Of the axis the larger of the two ways it can lean would do; the root of both is on the safe side.
     let axis = (spread[(3, 3)] + spread[(4, 4)] + spread[(5, 5)]).max(0.0).sqrt() * scale.axis;

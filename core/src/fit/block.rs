@@ -4,22 +4,27 @@ use super::layout::{place_of_slot, SLOT_COUNT};
 use super::linearized::Linearized;
 use super::row::Row;
 
-/// Half of Cauchy's loss of a residual in standard deviations, and the weight it leaves the residual.
-pub fn cauchy(residual: f64, cut: f64) -> (f64, f64) {
-    let ratio = 1.0 + (residual / cut).powi(2);
-    (0.5 * cut * cut * ratio.ln(), 1.0 / ratio)
+/// Half of Cauchy's loss of a residual in standard deviations is the logarithm of this times half of the cut's square; the weight that
+/// it leaves the residual is its inverse.
+pub fn cauchy_ratio(residual: f64, cut: f64) -> f64 {
+    1.0 + (residual / cut).powi(2)
 }
 
+/// A product of more of them may be too large a number with the next.
+const MOST_RATIOS: f64 = 1e150;
 /// Rows wait for so many others: the sums then stay in registers while all of them are added.
 const WAITING: usize = 8;
 /// The curvature is summed by squares of so many slots.
-const TILE: usize = 6;
+const TILE: usize = 4;
 /// Slots in whole tiles.
 const PADDED: usize = SLOT_COUNT.div_ceil(TILE) * TILE;
 
 /// The sums of one part, by the first `COUNT` slots.
 pub struct Block<const COUNT: usize> {
     cost: f64,
+    /// Ratios of the loss that share what their logarithms count: one is taken of their product.
+    ratios: f64,
+    of_ratios: f64,
     gradient: [f64; COUNT],
     /// Lower triangle, in whole tiles.
     curvature: [[f64; PADDED]; PADDED],
@@ -33,6 +38,8 @@ impl<const COUNT: usize> Default for Block<COUNT> {
     fn default() -> Self {
         Self {
             cost: 0.0,
+            ratios: 1.0,
+            of_ratios: 0.0,
             gradient: [0.0; COUNT],
             curvature: [[0.0; PADDED]; PADDED],
             rows: [[0.0; PADDED]; WAITING],
@@ -44,8 +51,13 @@ impl<const COUNT: usize> Default for Block<COUNT> {
 
 impl<const COUNT: usize> Block<COUNT> {
     pub fn add(&mut self, row: &Row, sigma: f64, information: f64, cut: f64) {
-        let (cost, left) = cauchy(row.value / sigma, cut);
-        self.cost += information * cost;
+        let ratio = cauchy_ratio(row.value / sigma, cut);
+        let (of_ratio, left) = (information * 0.5 * cut * cut, 1.0 / ratio);
+        if of_ratio != self.of_ratios || self.ratios > MOST_RATIOS {
+            self.take_ratios();
+            self.of_ratios = of_ratio;
+        }
+        self.ratios *= ratio;
         let weight = information * left / (sigma * sigma);
         let (kept, weighted) = (&mut self.rows[self.waiting], &mut self.weighted[self.waiting]);
         for i in 0..COUNT {
@@ -63,7 +75,7 @@ impl<const COUNT: usize> Block<COUNT> {
     fn add_waiting(&mut self) {
         for i in (0..COUNT).step_by(TILE) {
             for j in (0..=i).step_by(TILE) {
-                let mut tile: [[f64; TILE]; TILE] = std::array::from_fn(|a| part_of(&self.curvature[i + a], j));
+                let mut tile: [[f64; TILE]; TILE] = std::array::from_fn(|a| *part_of(&self.curvature[i + a], j));
                 for (row, weighted) in self.rows.iter().zip(&self.weighted).take(self.waiting) {
                     let (row, weighted) = (part_of(row, j), part_of(weighted, i));
                     for a in 0..TILE {
@@ -80,9 +92,15 @@ impl<const COUNT: usize> Block<COUNT> {
         self.waiting = 0;
     }
 
+    fn take_ratios(&mut self) {
+        self.cost += self.of_ratios * self.ratios.ln();
+        self.ratios = 1.0;
+    }
+
     /// Into the sums of all parts, as side `k`'s.
     pub fn scatter(&mut self, sums: &mut Linearized, k: usize) {
         self.add_waiting();
+        self.take_ratios();
         sums.cost += self.cost;
         for i in 0..COUNT {
             let place = place_of_slot(i, k);
@@ -95,8 +113,8 @@ impl<const COUNT: usize> Block<COUNT> {
     }
 }
 
-/// As many slots as a tile has, without a call.
+/// As many slots as a tile has: there are whole tiles of them.
 #[inline(always)]
-fn part_of(row: &[f64; PADDED], from: usize) -> [f64; TILE] {
-    std::array::from_fn(|i| row[from + i])
+fn part_of(row: &[f64; PADDED], from: usize) -> &[f64; TILE] {
+    row[from..].first_chunk().unwrap_or(&[0.0; TILE])
 }

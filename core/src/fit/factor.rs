@@ -36,6 +36,7 @@ const fn order() -> [usize; COUNT] {
 }
 
 /// A lower triangle, each row kept from its first entry that is not 0: the factor has none before either.
+#[derive(Debug, Clone)]
 pub struct Factor {
     rows: Box<[[f64; COUNT]]>,
     first: [usize; COUNT],

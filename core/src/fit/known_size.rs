@@ -67,6 +67,9 @@ pub fn outer_m(body: &FittedBody) -> [f64; 3] {
 
 /// Of a fitted body, by the fit's covariance; `None` where no size is given.
 pub fn best_match(solution: &Solution, sizes: &[KnownSize]) -> Option<SizeMatch> {
+    if sizes.is_empty() {
+        return None;
+    }
     nearest(outer_m(&solution.body), &outer_covariance(&solution.covariance), sizes)
 }
 
@@ -100,7 +103,7 @@ pub fn share_of_score(found: Option<&SizeMatch>) -> f64 {
 /// where the covariance is singular.
 pub fn condition(solution: &Solution, to: &SizeMatch, scale: f64) -> Option<Solution> {
     let by = by_numbers();
-    let covariance = &solution.covariance;
+    let covariance: &DMatrix<f64> = &solution.covariance;
     let innovation = Vector3::from(to.outer_m) - Vector3::from(outer_m(&solution.body));
     let spread = outer_covariance(covariance) + Matrix3::identity() * (SIZE_SIGMA_M / scale).powi(2);
     let gain = covariance * by.transpose() * spread.try_inverse()?;
@@ -108,7 +111,11 @@ pub fn condition(solution: &Solution, to: &SizeMatch, scale: f64) -> Option<Solu
     let left = covariance - &gain * by * covariance;
     // Rounding must not leave it lopsided.
     let covariance = (&left + left.transpose()) * 0.5;
-    Some(Solution { body: solution.body.moved(&step), covariance, motions: solution.motions.clone() })
+    Some(Solution {
+        body: solution.body.moved(&step),
+        covariance: covariance.into(),
+        motions: solution.motions.clone(),
+    })
 }
 
 fn nearest(outer_m: [f64; 3], covariance: &Matrix3<f64>, sizes: &[KnownSize]) -> Option<SizeMatch> {

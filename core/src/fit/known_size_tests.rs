@@ -29,7 +29,7 @@ fn solution(outer_mm: [f64; 3]) -> Solution {
     });
     Solution {
         body: FittedBody { input_from_object: Isometry3::identity(), numbers },
-        covariance: &root * root.transpose() + DMatrix::identity(PARAMETER_COUNT, PARAMETER_COUNT) * 1e-7,
+        covariance: (&root * root.transpose() + DMatrix::identity(PARAMETER_COUNT, PARAMETER_COUNT) * 1e-7).into(),
         motions: Vec::new(),
     }
 }
@@ -62,7 +62,7 @@ fn conditioning_is_one_more_residual_for_each_dimension() {
             let (after, found) = with_known_size(before.clone(), &[size("a", [200.0, 300.0, 400.0])], scale);
             let told = found.expect("it is of that size").outer_m;
             // By information: that of the fit, and that of three rules.
-            let mut information = (&before.covariance * (scale * scale)).try_inverse().unwrap();
+            let mut information = (&*before.covariance * (scale * scale)).try_inverse().unwrap();
             let mut gradient = DVector::zeros(PARAMETER_COUNT);
             for (i, places) in [vec![LENGTH, THICKNESS], vec![WIDTH, THICKNESS], vec![HEIGHT]].iter().enumerate() {
                 let off = (told[i] - outer_m(&before.body)[i]) / (SIGMA_M * SIGMA_M);
@@ -76,7 +76,7 @@ fn conditioning_is_one_more_residual_for_each_dimension() {
             let error =
                 (0..PARAMETER_COUNT).skip(6).map(|i| (after.body.numbers[i] - before.body.numbers[i] - step[i]).abs());
             assert!(error.fold(0.0, f64::max) < 1e-9);
-            assert!((&after.covariance * (scale * scale) - covariance).amax() < 1e-10);
+            assert!((&*after.covariance * (scale * scale) - covariance).amax() < 1e-10);
             for (now, size) in outer_m(&after.body).iter().zip(told) {
                 assert!((now - size).abs() < 0.003, "{now} {size}");
             }

@@ -3,6 +3,7 @@
 mod answer;
 mod block;
 mod body;
+mod covariance;
 mod factor;
 mod forward;
 mod known_size;

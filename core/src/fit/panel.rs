@@ -88,6 +88,7 @@ impl<'a> Panel<'a> {
 
     /// Distance from the face that is `face` half boards off the middle (eq. 76): outwards of a side, upwards of the base
     /// and of what is closed. The base's upper face is all that anyone sees of it.
+    #[inline]
     pub fn face(&self, q: &Vec3, face: f64) -> Row {
         if self.role == Role::Base {
             let mut slots = NO_SLOTS;
@@ -194,11 +195,13 @@ impl<'a> Panel<'a> {
         }
     }
 
+    #[inline(always)]
     fn section_row(&self, at: &AtRim, by_along: f64, measure: &Measure) -> Row {
         self.rim().row(measure.value, at, [by_along, measure.by_inward, measure.by_above], measure.slots)
     }
 
     /// Distance outwards from a side's middle, which stands out by the bulge in its middle and not at all where it ends.
+    #[inline(always)]
     fn side_row(&self, at: &AtRim) -> Row {
         let k = self.role.side();
         let (edge, height) = (self.body.edge_m(k), self.body.get(HEIGHT));

@@ -1,6 +1,6 @@
 use nalgebra::Isometry3;
 
-use super::block::{cauchy, Block};
+use super::block::{cauchy_ratio, Block};
 use super::body::FittedBody;
 use super::layout::{LENGTH, SHIFT, TURN, WIDTH};
 use super::layout::{SLOT_BULGE, SLOT_COUNT, SLOT_FLAP, SLOT_TUCK};
@@ -151,7 +151,7 @@ pub fn for_each_row(
     mut with: impl FnMut(&Row, f64),
 ) {
     rows_of(part, body, motion, |row, sigma, information| {
-        let (_, left) = cauchy(row.value / sigma, cut);
+        let left = 1.0 / cauchy_ratio(row.value / sigma, cut);
         with(row, information * left / (sigma * sigma));
     });
 }

@@ -126,11 +126,23 @@ const LEAST_READINGS_OF_STRIP: usize = 3;
 struct Coordinates {
     axes: [Vec3; 2],
     along: [Vec<f64>; 2],
+    /// Least and most of them.
+    spans: [[f64; 2]; 2],
 }
 
 impl Coordinates {
     fn new(points: &[u32], axes: [Vec3; 2], sensor: &Sensor) -> Self {
-        Self { axes, along: axes.map(|axis| points.iter().map(|&index| sensor.point(index).dot(&axis)).collect()) }
+        let mut along = [Vec::with_capacity(points.len()), Vec::with_capacity(points.len())];
+        let mut spans = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        for &index in points {
+            let point = sensor.point(index);
+            for ((axis, along), span) in axes.iter().zip(&mut along).zip(&mut spans) {
+                let at = point.dot(axis);
+                along.push(at);
+                *span = [if at < span[0] { at } else { span[0] }, if at > span[1] { at } else { span[1] }];
+            }
+        }
+        Self { axes, along, spans }
     }
 }
 
@@ -144,7 +156,7 @@ fn end_readings(
     let (bounded, sign) = outward_coordinate(segment.role, end);
     let (outward, across) = (coordinates.axes[bounded] * sign, coordinates.axes[1 - bounded]);
     let Some(kind) = segment.ends.kind(end, &outward) else { return Vec::new() };
-    let strips = Strips::new(&coordinates.along[1 - bounded], sensor.pixel_m(&segment.center, &across), settings);
+    let strips = Strips::new(coordinates.spans[1 - bounded], sensor.pixel_m(&segment.center, &across), settings);
     let blur_m = if kind == EdgeKind::Crease { settings.crease_sigma_m } else { settings.edge_sigma_m };
     let outermost = strips.outermost(&coordinates.along[1 - bounded], &coordinates.along[bounded], sign);
     let information = (settings.most_end_information / outermost.len().max(1) as f64).min(1.0);
@@ -181,8 +193,7 @@ struct Strips {
 }
 
 impl Strips {
-    fn new(across: &[f64], pixel_m: f64, settings: &FitSettings) -> Self {
-        let (low, high) = across.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &c| (l.min(c), h.max(c)));
+    fn new([low, high]: [f64; 2], pixel_m: f64, settings: &FitSettings) -> Self {
         let (low, high) = (low + CORNER_SHARE * (high - low), high - CORNER_SHARE * (high - low));
         let fit = ((high - low) / (STRIP_PX * pixel_m)) as usize;
         let count = fit.clamp(1, settings.end_strips);
@@ -193,9 +204,10 @@ impl Strips {
     fn outermost(&self, across: &[f64], outward: &[f64], sign: f64) -> Vec<usize> {
         let mut found = vec![(f64::NEG_INFINITY, 0_usize, 0_usize); self.count];
         for (number, (across, outward)) in across.iter().zip(outward).enumerate() {
-            let strip = ((across - self.low) / self.width).floor();
+            let strip = (across - self.low) / self.width;
             if strip >= 0.0 && strip < self.count as f64 {
-                let (farthest, at, readings) = &mut found[strip as usize];
+                // Signed: to unsigned numbers of that size takes twice as long.
+                let (farthest, at, readings) = &mut found[strip as i32 as usize];
                 *readings += 1;
                 let out = sign * outward;
                 if out > *farthest {

@@ -39,6 +39,7 @@ impl Rim {
     }
 
     /// Of a point in the object's frame.
+    #[inline(always)]
     pub fn locate(&self, point: Vec3) -> AtRim {
         let (x, y, half) = (self.sign * point.x, self.sign * point.y, self.across_m / 2.0);
         let (s, c) = (self.sin_rack, self.cos_rack);
@@ -71,6 +72,7 @@ impl Rim {
 
     /// The row of a measure with these derivatives by `along`, `inward` and `above`, and by the slots of its own; the
     /// dimensions that move the frame are added here.
+    #[inline(always)]
     pub fn row(&self, value: f64, at: &AtRim, by: [f64; 3], mut slots: Slots) -> Row {
         let [by_along, by_inward, by_above] = by;
         let (s, c, half) = (self.sin_rack, self.cos_rack, self.across_m / 2.0);

@@ -13,6 +13,7 @@ pub struct Row {
 impl Row {
     /// `gradient` is the derivative by the point in the object's frame; a motion of the object moves the point the other
     /// way, q x turn - shift, so the pose's derivatives follow from it (eq. 74).
+    #[inline(always)]
     pub fn new(value: f64, point: &Vec3, gradient: &Vec3, mut slots: Slots) -> Self {
         let turn = gradient.cross(point);
         for axis in 0..3 {

@@ -32,6 +32,7 @@ impl FlapSection {
         (self.cos * inward + self.sin * above, self.cos * above - self.sin * inward)
     }
 
+    #[inline(always)]
     fn measure(&self, value: f64, (x, y): (f64, f64), (by_x, by_y): (f64, f64), by_curl: f64) -> Measure {
         let mut slots = [0.0; super::layout::SLOT_COUNT];
         slots[SLOT_FLAP + FLAP_ANGLE] = by_x * y - by_y * x;
@@ -42,6 +43,7 @@ impl FlapSection {
 
     /// Height over the bent board's middle: the distance from a circle through the hinge, in a form that has no pole where
     /// the board is flat.
+    #[inline(always)]
     pub fn height(&self, inward: f64, above: f64) -> Measure {
         let (x, y) = self.to_tangent(inward, above);
         let curl = self.curl;
@@ -101,6 +103,7 @@ impl TuckSection {
     }
 
     /// The measure `by.0 * way + by.1 * height`.
+    #[inline(always)]
     fn measure(&self, inward: f64, above: f64, by: (f64, f64)) -> Measure {
         let (x0, y0) = (self.cos * inward + self.sin * above, self.cos * above - self.sin * inward);
         let (end_x, end_y) = self.flap.end();

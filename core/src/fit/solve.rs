@@ -1,6 +1,7 @@
-use nalgebra::{DMatrix, Isometry3};
+use nalgebra::Isometry3;
 
 use super::body::{FittedBody, Parameters};
+use super::covariance::Covariance;
 use super::factor::Factor;
 use super::linearized::Linearized;
 use super::problem::Problem;
@@ -11,7 +12,7 @@ use super::refusal::NotFitted;
 pub struct Solution {
     pub body: FittedBody,
     /// Inverse of the curvature: of independent readings.
-    pub covariance: DMatrix<f64>,
+    pub covariance: Covariance,
     /// Of other views' readings, object's frame: where they suit the body best.
     pub motions: Vec<Isometry3<f64>>,
 }
@@ -36,7 +37,7 @@ pub fn solve(problem: &Problem, start: &FittedBody) -> Result<Solution, NotFitte
     }
     let mut descent = Descent::new(problem, body, problem.settings.last_cut);
     descent.run(problem.settings.max_steps)?;
-    let covariance = Factor::new(&descent.at.curvature, 0.0).ok_or(NotFitted::Singular)?.inverse();
+    let covariance = Covariance::of(Factor::new(&descent.at.curvature, 0.0).ok_or(NotFitted::Singular)?);
     Ok(Solution { body: descent.body, covariance, motions: descent.at.motions })
 }
 

@@ -42,7 +42,7 @@ mod tests {
         let parts = vec![(Role::Base, vec![0; base]), (Role::Side(1), vec![0; 900]), (Role::Flap(1), vec![0; 900])];
         let present = Present { flaps: [false, true, false, false], ..Present::default() };
         let evidence = vec![(Role::Side(3), Evidence { met: inner, is_inner: true, ..Evidence::default() })];
-        let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
+        let solution = Solution { body, covariance: DMatrix::zeros(0, 0).into(), motions: Vec::new() };
         let one = FoundBox::unjudged(solution, present, Labels { parts, stride: 1 }, evidence, 1800.0);
         FoundBox { features: vec![("looked_inside", amount(through))], ..one }
     }

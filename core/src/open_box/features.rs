@@ -234,7 +234,7 @@ mod tests {
             let present = Present::default();
             let parts = vec![(Role::Side(0), vec![0; 900]), (Role::Side(1), vec![0; readings])];
             let evidence = vec![(Role::Side(0), looked(900.0, 0.0, 0.0)), (Role::Side(1), evidence)];
-            let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
+            let solution = Solution { body, covariance: DMatrix::zeros(0, 0).into(), motions: Vec::new() };
             let found = FoundBox::unjudged(solution, present, Labels { parts, stride: 1 }, evidence, 1800.0);
             let is_told = |role: Role| !found.labels.of(role).is_empty();
             assert_eq!(side_absent(&found, &is_told) > 0.9, is_absent, "{readings} {:?}", found.evidence);

@@ -14,6 +14,7 @@ use super::proposed::outer_m;
 use super::refused::Refused;
 use super::rivals::{best_of_rivals, fitted_in_turn};
 use super::second_look::{more_to_fit, with_second};
+use super::shared_scans::scan_flaps_of_all;
 use super::shells::{shells, Shell};
 use super::sight::Sight;
 use super::start::body_of;
@@ -52,9 +53,10 @@ pub fn find(
     let mut clock = Clock::start();
     let mut shells = shells(sight, scene);
     clock.lap("proposals");
-    // Each by itself, in their order: the same bits on any number of threads.
-    shells.par_iter_mut().for_each(|shell| {
-        shell.flaps = scan_flaps(sight, &body_of(&shell.proposal), COARSE_M, COARSE_SCAN);
+    let bodies: Vec<FittedBody> = shells.iter().map(|shell| body_of(&shell.proposal)).collect();
+    let flaps = scan_flaps_of_all(sight, &bodies, COARSE_M, COARSE_SCAN);
+    shells.iter_mut().zip(flaps).for_each(|(shell, flaps)| {
+        shell.flaps = flaps;
         shell.score = shell.of_walls() + shell.flaps.iter().flatten().map(ScannedFlap::score).sum::<f64>();
         shell.score *= share_of_score(best_match_within(outer_m(&shell.proposal), PROPOSED_SIGMA_M, sizes).as_ref());
     });

@@ -1,7 +1,8 @@
 //! Each rim edge is scanned for its flap: at every angle the readings are asked whether a board leaves the edge there.
 
 use super::hinge_line::HingeLine;
-use super::sight::{Rows, Says, Sight};
+use super::rows::Rows;
+use super::sight::Sight;
 use crate::geometry::Vec3;
 
 /// A flap as the scan sees it.
@@ -85,6 +86,11 @@ const LEAST_ROWS_M: f64 = 0.012;
 
 /// The best flap on an edge, `None` where no angle has more readings for it than against it.
 pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<ScannedFlap> {
+    follow_best(sight, hinge, peaks(sight, hinge, range).into_iter(), range)
+}
+
+/// The angles at which most speaks for a board near its hinge, so many as are followed, best first.
+pub fn peaks(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Vec<f64> {
     let angles = angles(hinge, &sight.eye, range);
     let near = Board::new(sight, hinge, range, NEAR_COLUMNS);
     let scores: Vec<f64> = angles.iter().map(|&angle| near.near_score(angle)).collect();
@@ -94,8 +100,7 @@ pub fn scan(sight: &Sight, hinge: &HingeLine, range: &ScanRange) -> Option<Scann
     };
     let mut peaks: Vec<usize> = (0..angles.len()).filter(|&i| is_peak(i)).collect();
     peaks.sort_by(|&a, &b| scores[b].total_cmp(&scores[a]));
-    let taken = apart(peaks.into_iter().map(|i| angles[i]), range);
-    follow_best(sight, hinge, taken.into_iter(), range)
+    apart(peaks.into_iter().map(|i| angles[i]), range)
 }
 
 /// Of the flaps that are followed from these angles the best.
@@ -145,39 +150,30 @@ struct Board<'a> {
     rows: Rows<'a>,
     hinge: &'a HingeLine,
     range: &'a ScanRange,
-    columns_m: Vec<f64>,
 }
 
 impl<'a> Board<'a> {
     fn new(sight: &'a Sight, hinge: &'a HingeLine, range: &'a ScanRange, count: usize) -> Self {
         let half = hinge.half_m * (1.0 - END_SHARE);
         let columns_m = (0..count).map(|i| half * ((2 * i + 1) as f64 / count as f64 - 1.0)).collect();
-        Self { sight, rows: sight.rows(hinge.along), hinge, range, columns_m }
-    }
-
-    fn ask<'b>(&'b self, middle: &Vec3, normal: &Vec3) -> impl Iterator<Item = (Says, Option<Vec3>)> + 'b {
-        self.hinge.ask_row(&self.rows, middle, normal, self.range.model_m, &self.columns_m)
+        Self { sight, rows: Rows::new(sight, hinge, range.model_m, columns_m), hinge, range }
     }
 
     /// More places on the board than through it; where that can no longer be, it is not asked by how many less.
     fn near_score(&self, angle: f64) -> f64 {
         let (way, normal) = self.hinge.directions(angle);
         let reaches = || self.range.reaches().filter(|reach| *reach < self.range.longest_m);
-        let (mut score, mut left) = (0.0, reaches().count() * self.columns_m.len());
+        let count = self.rows.columns() as i32;
+        let (mut score, mut left) = (0, reaches().count() as i32 * count);
         for reach in reaches() {
-            if score + left as f64 <= 0.0 {
+            if score + left <= 0 {
                 break;
             }
-            left -= self.columns_m.len();
-            for (says, _) in self.ask(&(self.hinge.middle + way * reach), &normal) {
-                score += match says {
-                    Says::Met => 1.0,
-                    Says::Through => -1.0,
-                    Says::Hidden | Says::Blank | Says::Outside => 0.0,
-                };
-            }
+            left -= count;
+            let said = self.rows.ask(&(self.hinge.middle + way * reach), &normal);
+            score += said.met.count_ones() as i32 - said.through.count_ones() as i32;
         }
-        score
+        f64::from(score)
     }
 
     /// Followed from the hinge outwards, its angle and curl fitted to what is met on the way.
@@ -216,20 +212,20 @@ impl<'a> Board<'a> {
             let (mut met, mut through, mut hidden) = (0.0, 0.0, 0.0);
             let middle = hinge.middle + way * reach + normal * height;
             let pixels = self.sight.pixels(&middle, &normal, ROW_M * column_m);
-            for asked in self.ask(&middle, &tilted) {
-                match asked {
-                    (Says::Met, Some(reading)) => {
-                        met += pixels;
-                        let from = reading - hinge.middle;
-                        let (x, y) = (way.dot(&from), normal.dot(&from));
-                        let (q, y) = (x * x / 2.0, y - flap.curl * x * x / 2.0);
-                        for (sum, term) in out.sums.iter_mut().zip([x * x, x * q, q * q, x * y, q * y]) {
-                            *sum += term;
-                        }
-                    }
-                    (Says::Through, _) => through += pixels,
-                    (Says::Hidden, _) => hidden += pixels,
-                    _ => {}
+            let said = self.rows.ask(&middle, &tilted);
+            for (sum, of) in [(&mut met, said.met), (&mut through, said.through), (&mut hidden, said.hidden)] {
+                (0..of.count_ones()).for_each(|_| *sum += pixels);
+            }
+            let mut left = said.met;
+            while left != 0 {
+                let column = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let Some(reading) = self.sight.reading(said.indices[column] as usize) else { continue };
+                let from = reading - hinge.middle;
+                let (x, y) = (way.dot(&from), normal.dot(&from));
+                let (q, y) = (x * x / 2.0, y - flap.curl * x * x / 2.0);
+                for (sum, term) in out.sums.iter_mut().zip([x * x, x * q, q * q, x * y, q * y]) {
+                    *sum += term;
                 }
             }
             for (sum, term) in pending.iter_mut().zip([met, through, hidden]) {

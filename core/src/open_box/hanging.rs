@@ -41,7 +41,7 @@ pub fn scan_flap(sight: &Sight, body: &FittedBody, k: usize, model_m: f64, by: F
 }
 
 /// Of the flap on side `k`.
-fn flap_range(body: &FittedBody, k: usize, model_m: f64, by: FlapScan) -> ScanRange {
+pub fn flap_range(body: &FittedBody, k: usize, model_m: f64, by: FlapScan) -> ScanRange {
     let FlapScan { angles_rad, peaks, columns } = by;
     let longest_m = longest_flap_m(body, k);
     ScanRange { angles_rad, longest_m, model_m, peaks, columns, over_hidden: false }

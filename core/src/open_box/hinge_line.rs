@@ -1,10 +1,11 @@
 //! Edges that a board may hang on.
 
-use super::sight::{Reading, Rows, Says};
+use super::sight::Reading;
 use crate::fit::{flap_end, layout, FittedBody, Rim};
 use crate::geometry::{Plane, Vec3};
 
-const HALF_BOARD_M: f64 = 0.003;
+/// A reading of the panel may lie so far before its edge, metres.
+const BEFORE_EDGE_M: f64 = 0.002;
 
 /// An edge that a board may hang on, in the level frame.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +25,9 @@ pub struct HingeLine {
 }
 
 impl HingeLine {
+    /// Half a board, and what it is uneven by.
+    pub const HALF_BOARD_M: f64 = 0.003;
+
     /// The top edge of side `k`.
     pub fn of_side(body: &FittedBody, k: usize) -> Self {
         let rim = Rim::new(body, k);
@@ -65,26 +69,15 @@ impl HingeLine {
         }
     }
 
-    /// What the camera says of the points of a board on the edge, in rows along it; a reading of the panel that the edge belongs to,
-    /// of the base or of the support says nothing.
-    #[inline]
-    pub fn ask_row<'a>(
-        &'a self,
-        rows: &Rows<'a>,
-        middle: &Vec3,
-        normal: &Vec3,
-        model_m: f64,
-        columns_m: &'a [f64],
-    ) -> impl Iterator<Item = (Says, Option<Vec3>)> + 'a {
-        let eye_z = rows.eye().z;
-        rows.ask(middle, normal, model_m, columns_m).map(move |(says, look)| {
-            let Some(look) = look else { return (says, None) };
-            let reading = look.at();
-            if says == Says::Met && self.is_of_others(eye_z, look, model_m) {
-                return (Says::Blank, None);
-            }
-            (says, Some(reading))
-        })
+    /// Where readings are not those of a board on the edge, as planes with their distances: on the panel that the edge belongs to, which is
+    /// where they lie above the first and near the second; near the base's upper face, which is the third.
+    pub fn others(&self) -> [(Vec3, f64); 3] {
+        let Self { middle, parent, off_parent, base, .. } = self;
+        [
+            (*parent, parent.dot(middle) - BEFORE_EDGE_M),
+            (*off_parent, off_parent.dot(middle)),
+            (base.normal, base.distance),
+        ]
     }
 
     /// Whether a reading is one of the panel that the edge belongs to, of the base or of the support.
@@ -94,7 +87,7 @@ impl HingeLine {
 
     fn is_on_parent(&self, reading: &Vec3, model_m: f64) -> bool {
         let from = reading - self.middle;
-        self.parent.dot(&from) > -0.002 && self.off_parent.dot(&from).abs() < model_m + HALF_BOARD_M
+        self.parent.dot(&from) > -BEFORE_EDGE_M && self.off_parent.dot(&from).abs() < model_m + Self::HALF_BOARD_M
     }
 
     fn is_ground(&self, eye_z: f64, look: &Reading, model_m: f64) -> bool {
@@ -110,6 +103,11 @@ impl HingeLine {
         let around = (-steps..=steps).map(|i| edge_on + f64::from(i) * step_rad);
         let either_way = around.flat_map(|angle| [angle, angle + std::f64::consts::PI]);
         either_way.filter(|angle| (least..most).contains(angle)).collect()
+    }
+
+    /// How high the base's upper face lies, along its normal.
+    pub fn base_m(&self) -> f64 {
+        self.base.distance
     }
 
     pub fn directions(&self, angle: f64) -> (Vec3, Vec3) {

@@ -68,40 +68,74 @@ pub fn turned([x, y, up]: &[Vec3; 3], yaw: f64) -> [Vec3; 3] {
 pub fn proposals(patches: &[Patch], rims: &[Patch], frame: &[Vec3; 3], yaw: f64) -> Vec<Proposal> {
     let axes = turned(frame, yaw);
     let first_rim = patches.len();
-    let along = |patch: &Patch| Along { patch: patch.clone(), spans: axes.each_ref().map(|axis| patch.span(axis)) };
-    let patches: &Vec<Along> = &patches.iter().chain(rims).map(along).collect();
+    let patches: &Vec<Along> = &patches.iter().chain(rims).map(|patch| Along::new(patch, &axes)).collect();
     let found = [0, 1].map(|a| pairs(patches, first_rim, &axes, a));
-    let mut plans: Vec<(f64, Proposal)> = Vec::new();
+    let mut plans: Vec<Plan> = Vec::new();
     for first in &found[0] {
         for second in &found[1] {
-            plans.extend(plan(patches, &axes, [first, second]));
+            plans.extend(plan(patches, &axes[2], [first, second]));
         }
     }
-    plans.sort_by(|a, b| b.0.total_cmp(&a.0));
+    plans.sort_by(|a, b| b.score.total_cmp(&a.score));
     plans.truncate(MOST);
-    plans.iter().flat_map(|(_, plan)| with_rims(patches, plan)).collect()
+    plans.iter().flat_map(|plan| with_rims(patches, &plan.proposal(&axes))).collect()
 }
 
-/// A patch, and how far it reaches along a box's directions and its up.
+/// A patch, and how it lies along a box's directions and its up.
 struct Along {
     patch: Patch,
     spans: [[f64; 2]; 3],
+    is_upright: bool,
+    /// Of its normal along the directions.
+    leans: [f64; 2],
+    rise: f64,
+    /// Of its level direction along them, if it has one.
+    runs: Option<[f64; 2]>,
+}
+
+impl Along {
+    fn new(patch: &Patch, axes: &[Vec3; 3]) -> Self {
+        let [x, y, up] = axes;
+        Self {
+            patch: patch.clone(),
+            spans: axes.each_ref().map(|axis| patch.span(axis)),
+            is_upright: patch.is_upright(up),
+            leans: [patch.normal.dot(x), patch.normal.dot(y)],
+            rise: patch.normal.dot(up),
+            runs: patch.level_direction(up).map(|along| [along.dot(x), along.dot(y)]),
+        }
+    }
+}
+
+/// A box of two pairs of walls, whose rim is still to come.
+struct Plan {
+    score: f64,
+    spans: [[f64; 2]; 2],
+    bottom_m: f64,
+    on_flaps: f64,
+}
+
+impl Plan {
+    fn proposal(&self, [x, y, up]: &[Vec3; 3]) -> Proposal {
+        let Self { spans, bottom_m, on_flaps, .. } = *self;
+        Proposal { axes: [*x, *y], up: *up, spans, heights: [bottom_m, bottom_m], on_flaps }
+    }
 }
 
 /// Two opposite walls: low and high.
 type Pair = [Place; 2];
 
 fn pairs(patches: &[Along], first_rim: usize, axes: &[Vec3; 3], a: usize) -> Vec<Pair> {
-    let (axis, across, up) = (&axes[a], &axes[1 - a], &axes[2]);
+    let axis = &axes[a];
     let [mut low, mut high]: [Vec<Place>; 2] = [Vec::new(), Vec::new()];
-    for (number, Along { patch, spans }) in patches.iter().enumerate() {
-        if patch.is_upright(up) && patch.normal.dot(axis).abs() > LEAST_COS {
+    for (number, Along { spans, is_upright, leans, .. }) in patches.iter().enumerate() {
+        if *is_upright && leans[a].abs() > LEAST_COS {
             let [from, to] = spans[a];
             let at_m = (from + to) / 2.0;
             let shown_by = if number < first_rim { ShownBy::Wall(number) } else { ShownBy::Rim(number) };
             let shown = |at_m: f64| Place { at_m, shown_by };
             // Seen from outside it is the wall on the camera's side, from inside the one across.
-            if patch.normal.dot(axis) > 0.0 {
+            if leans[a] > 0.0 {
                 low.push(shown(at_m - BOARD_M));
                 high.push(shown(at_m));
             } else {
@@ -110,13 +144,12 @@ fn pairs(patches: &[Along], first_rim: usize, axes: &[Vec3; 3], a: usize) -> Vec
             }
         }
     }
-    for (number, Along { patch, spans }) in patches.iter().enumerate() {
-        let along = patch.level_direction(up);
-        let runs = |direction: &Vec3| along.is_none_or(|along| along.dot(direction).abs() > LEAST_COS);
+    for (number, Along { patch, spans, is_upright, runs, .. }) in patches.iter().enumerate() {
+        let runs = |direction: usize| runs.is_none_or(|runs| runs[direction].abs() > LEAST_COS);
         // Walls across end where these stand; flaps hang on them with one of their edges.
-        let shown_by = if patch.is_upright(up) && runs(axis) {
+        let shown_by = if *is_upright && runs(a) {
             ShownBy::Nothing
-        } else if !patch.is_upright(up) && runs(across) && patch.span(&Vec3::z())[1] > HEIGHTS_M[0] {
+        } else if !is_upright && runs(1 - a) && patch.span(&Vec3::z())[1] > HEIGHTS_M[0] {
             ShownBy::Flap(number)
         } else {
             continue;
@@ -159,7 +192,7 @@ fn distinct(places: Vec<Place>) -> Vec<Place> {
 }
 
 /// A box of two pairs of walls, where they fit each other, and how much of it is shown; its rim is still to come.
-fn plan(patches: &[Along], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, Proposal)> {
+fn plan(patches: &[Along], up: &Vec3, pairs: [&Pair; 2]) -> Option<Plan> {
     let spans = pairs.map(|pair| [pair[0].at_m, pair[1].at_m]);
     let (mut walls, mut flaps, mut shown, mut by_flaps, mut lowest) = (0, 0, 0.0, 0.0, f64::INFINITY);
     for wall in 0..4 {
@@ -168,7 +201,7 @@ fn plan(patches: &[Along], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
             ShownBy::Flap(number) => (number, false),
             ShownBy::Nothing => continue,
         };
-        let Along { patch, spans: along } = &patches[number];
+        let Along { patch, spans: along, .. } = &patches[number];
         let other = 1 - wall / 2;
         let [from, to] = along[other];
         let [low, high] = spans[other];
@@ -187,13 +220,11 @@ fn plan(patches: &[Along], axes: &[Vec3; 3], pairs: [&Pair; 2]) -> Option<(f64, 
             by_flaps += readings;
         }
     }
-    let [x, y, up] = *axes;
     // What stands level stands on the support; what leans ends where its walls do.
-    let bottom = if up.z > 0.9999 { 0.0 } else { lowest };
+    let bottom_m = if up.z > 0.9999 { 0.0 } else { lowest };
     let count = walls + flaps;
-    let is_enough = bottom.is_finite() && (walls >= 2 || count >= 3);
-    let plan = Proposal { axes: [x, y], up, spans, heights: [bottom, bottom], on_flaps: by_flaps };
-    is_enough.then_some((shown + OF_FLAPS * by_flaps, plan))
+    let is_enough = bottom_m.is_finite() && (walls >= 2 || count >= 3);
+    is_enough.then_some(Plan { score: shown + OF_FLAPS * by_flaps, spans, bottom_m, on_flaps: by_flaps })
 }
 
 /// The plan with each height at which its rim may be: where its walls end, where tilted panels meet its walls.
@@ -221,9 +252,13 @@ fn with_rims(patches: &[Along], plan: &Proposal) -> Vec<Proposal> {
 }
 
 /// The height at which a patch says that a wall ends, and how loudly.
-fn rim(Along { patch, spans }: &Along, plan: &Proposal, wall: usize) -> Option<(f64, f64)> {
+fn rim(
+    Along { patch, spans, is_upright, leans, rise, runs }: &Along,
+    plan: &Proposal,
+    wall: usize,
+) -> Option<(f64, f64)> {
     let (a, is_high) = (wall / 2, wall % 2 == 1);
-    let (axis, across, up) = (&plan.axes[a], &plan.axes[1 - a], &plan.up);
+    let (axis, across) = (&plan.axes[a], &plan.axes[1 - a]);
     let at_m = plan.spans[a][usize::from(is_high)];
     let ([from, to], [low, high]) = (spans[1 - a], plan.spans[1 - a]);
     let overlap = (to.min(high) - from.max(low)) / (high - low);
@@ -231,14 +266,12 @@ fn rim(Along { patch, spans }: &Along, plan: &Proposal, wall: usize) -> Option<(
         return None;
     }
     let [near, far] = spans[a];
-    let lean = patch.normal.dot(axis);
-    if patch.is_upright(up) && lean.abs() > LEAST_COS {
+    if *is_upright && leans[a].abs() > LEAST_COS {
         let inside = at_m - 0.015..=at_m + 0.015;
         return inside.contains(&((near + far) / 2.0)).then(|| (spans[2][1], overlap * OF_TOPS));
     }
     // A flap: its plane meets the wall's at the hinge, which is where it ends too.
-    let rise = patch.normal.dot(up);
-    if patch.level_direction(up).is_some_and(|along| along.dot(across).abs() < LEAST_COS) || rise.abs() < 0.2 {
+    if runs.is_some_and(|runs| runs[1 - a].abs() < LEAST_COS) || rise.abs() < 0.2 {
         return None;
     }
     let middle = across * ((from + to) / 2.0) + axis * at_m;

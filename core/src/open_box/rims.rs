@@ -85,14 +85,23 @@ pub struct OnRims {
     pub open: f64,
 }
 
+/// More pixels than its rims can say for a body.
+pub fn most_px(sight: &Sight, body: &FittedBody) -> f64 {
+    (0..4).map(|k| FEW_PLACES as f64 * place_px(sight, body, k) * STRIPE_PX).sum()
+}
+
+/// Pixels along the rim of side `k` from place to place.
+fn place_px(sight: &Sight, body: &FittedBody, k: usize) -> f64 {
+    let range = (body.to_input(&Rim::new(body, k).place(0.0, 0.0, 0.0)) - sight.eye).norm();
+    body.edge_m(k) / FEW_PLACES as f64 / (sight.pixel_rad * range)
+}
+
 /// Looks along all four rims of a body that still competes.
 pub fn of_body(sight: &Sight, body: &FittedBody) -> OnRims {
     let (mut pixels, mut open, mut all) = (0.0, 0.0, 1.0);
     for k in 0..4 {
         let look = look_along(sight, body, k, FEW_PLACES);
-        let range = (body.to_input(&Rim::new(body, k).place(0.0, 0.0, 0.0)) - sight.eye).norm();
-        let place_px = body.edge_m(k) / FEW_PLACES as f64 / (sight.pixel_rad * range);
-        pixels += place_px * STRIPE_PX * (look.ridge + OF_FOLDS * look.fold - look.through);
+        pixels += place_px(sight, body, k) * STRIPE_PX * (look.ridge + OF_FOLDS * look.fold - look.through);
         open += look.ridge + look.fold;
         all += look.ridge + look.fold + look.goes_on + look.through;
     }

@@ -80,7 +80,7 @@ mod tests {
 
     fn found(score: f64, probability: f64, slots: f64) -> FoundBox {
         let body = FittedBody { input_from_object: Isometry3::identity(), numbers: Parameters::zeros() };
-        let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
+        let solution = Solution { body, covariance: DMatrix::zeros(0, 0).into(), motions: Vec::new() };
         let labels = Labels { parts: Vec::new(), stride: 1 };
         let one = FoundBox::unjudged(solution, Present::default(), labels, Vec::new(), score);
         FoundBox { probability, slots, ..one }

@@ -68,7 +68,7 @@ mod tests {
         numbers[layout::flap(1) + layout::FLAP_ANGLE] = 2.0;
         let mut body = FittedBody { input_from_object: Isometry3::identity(), numbers };
         change(&mut body);
-        let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
+        let solution = Solution { body, covariance: DMatrix::zeros(0, 0).into(), motions: Vec::new() };
         let present = Present { flaps, ..Present::default() };
         FoundBox::unjudged(solution, present, Labels::default(), Vec::new(), 1.0)
     }

@@ -1,5 +1,8 @@
 //! The proposals that are worth a closer look.
 
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
 use rayon::prelude::*;
 
 use super::flap_scan::ScannedFlap;
@@ -49,34 +52,101 @@ pub fn shells(sight: &Sight, scene: &Scene) -> Vec<Shell> {
     // Proposals come by their directions.
     let of_one_direction: Vec<&[Proposal]> = proposed.chunk_by(|a, b| a.axes == b.axes && a.up == b.up).collect();
     let look = |proposals: &&[Proposal]| borne_out(sight, &rays, proposals);
-    let mut all: Vec<Shell> = of_one_direction.par_iter().flat_map_iter(look).collect();
-    all.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let mut out: Vec<Shell> = Vec::new();
-    // What lies takes no place of what stands.
-    for shell in all {
-        let of_its_kind = || out.iter().filter(|other| lies(&other.proposal) == lies(&shell.proposal));
-        let rivals = of_its_kind().filter(|other| overlap(&other.proposal, &shell.proposal)).count();
-        let is_new = rivals < RIVALS && !of_its_kind().any(|other| alike(&other.proposal, &shell.proposal, ALIKE_M));
-        if is_new && of_its_kind().count() < if lies(&shell.proposal) { MOST_LYING } else { MOST_SHELLS } {
-            out.push(shell);
-        }
-    }
-    out
+    best(sight, of_one_direction.par_iter().flat_map_iter(look).collect())
 }
 
 /// Of proposals that share their directions those that the rays bear out.
 fn borne_out(sight: &Sight, rays: &Rays, proposals: &[Proposal]) -> Vec<Shell> {
     let Some(first) = proposals.first() else { return Vec::new() };
     let along = rays.along(sight, first);
-    let mut out = Vec::new();
-    for proposal in proposals {
+    let look = |proposal: &Proposal| {
         let least = LEAST_SCORE - OF_FLAPS * proposal.on_flaps;
-        let Some(looked) = rays.look(sight, proposal, &along, least) else { continue };
-        let on_rims = rims::of_body(sight, &body_of(proposal));
-        let shell = Shell { proposal: proposal.clone(), looked, on_rims, score: 0.0, flaps: [None; 4] };
-        out.push(Shell { score: shell.of_walls() + OF_FLAPS * proposal.on_flaps, ..shell });
+        let looked = rays.look(sight, proposal, &along, least)?;
+        Some(Shell {
+            proposal: proposal.clone(),
+            looked,
+            on_rims: OnRims::default(),
+            score: f64::INFINITY,
+            flaps: [None; 4],
+        })
+    };
+    proposals.iter().filter_map(look).collect()
+}
+
+/// The best of them, distinct, best first. Rims are looked along where what they could say at most lets a proposal be among them.
+fn best(sight: &Sight, all: Vec<Shell>) -> Vec<Shell> {
+    let score = |shell: &Shell| shell.of_walls() + OF_FLAPS * shell.proposal.on_flaps;
+    let at_most = |shell: &Shell| {
+        let on_rims = OnRims { pixels: rims::most_px(sight, &body_of(&shell.proposal)), open: 1.0 };
+        score(&Shell { on_rims, ..shell.clone() }) + ROUNDED
+    };
+    let waiting =
+        all.iter().enumerate().map(|(number, shell)| Waiting { score: at_most(shell), is_exact: false, number });
+    let mut waiting: BinaryHeap<Waiting> = waiting.collect();
+    let mut all: Vec<Option<Shell>> = all.into_iter().map(Some).collect();
+    let mut kept = Kept::default();
+    while let Some(Waiting { is_exact, number, .. }) = waiting.pop() {
+        let Some(mut shell) = all[number].take().filter(|shell| kept.has_room(shell)) else { continue };
+        if is_exact {
+            kept.shells.push(shell);
+            continue;
+        }
+        shell.on_rims = rims::of_body(sight, &body_of(&shell.proposal));
+        shell.score = score(&shell);
+        waiting.push(Waiting { score: shell.score, is_exact: true, number });
+        all[number] = Some(shell);
     }
-    out
+    kept.shells
+}
+
+/// More than sums of pixels are off.
+const ROUNDED: f64 = 1e-3;
+
+/// A proposal by its number, with its score or more than that.
+struct Waiting {
+    score: f64,
+    is_exact: bool,
+    number: usize,
+}
+
+/// The highest score comes first; of equals what is not yet exact, then the first.
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_score = self.score.total_cmp(&other.score);
+        by_score.then(other.is_exact.cmp(&self.is_exact)).then(other.number.cmp(&self.number))
+    }
+}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Waiting {}
+
+/// Proposals that are kept. What has no room among them has none among more.
+#[derive(Default)]
+struct Kept {
+    shells: Vec<Shell>,
+}
+
+impl Kept {
+    /// What lies takes no place of what stands.
+    fn has_room(&self, shell: &Shell) -> bool {
+        let proposal = &shell.proposal;
+        let is_lying = lies(proposal);
+        let of_its_kind = || self.shells.iter().map(|other| &other.proposal).filter(|other| lies(other) == is_lying);
+        of_its_kind().count() < if is_lying { MOST_LYING } else { MOST_SHELLS }
+            && !of_its_kind().any(|other| alike(other, proposal, ALIKE_M))
+            && of_its_kind().filter(|other| overlap(other, proposal)).count() < RIVALS
+    }
 }
 
 fn all_proposals(patches: &[Patch], edges: &[Vec3], eye: &Vec3) -> Vec<Proposal> {

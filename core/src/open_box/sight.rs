@@ -1,4 +1,5 @@
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion};
+use wide::f32x4;
 
 use crate::cloud::{CloudView, Projection};
 use crate::geometry::{Plane, Vec3};
@@ -37,7 +38,7 @@ impl Reading {
     /// What it says of a surface that lies that far before it along the normal; `along` is the way from the eye to the surface along
     /// the normal.
     #[inline]
-    fn says(&self, off: f64, along: f64, model_m: f64) -> Says {
+    pub fn says(&self, off: f64, along: f64, model_m: f64) -> Says {
         let tolerance = self.noise() * along.abs() + model_m;
         if off.abs() <= tolerance {
             Says::Met
@@ -55,6 +56,12 @@ impl Reading {
     }
 }
 
+/// Four readings' coordinates and noise, each by itself.
+#[inline(always)]
+pub fn side_by_side(readings: [&Reading; 4]) -> [f32x4; 4] {
+    f32x4::transpose(readings.map(|&Reading { at: [x, y, z], noise }| f32x4::new([x, y, z, noise])))
+}
+
 /// The depth image in the level frame: z up from the support, the camera above the origin. Metres.
 pub struct Sight<'a> {
     pub input_from_level: Isometry3<f64>,
@@ -65,8 +72,8 @@ pub struct Sight<'a> {
     pub height: usize,
     /// Angle between neighbouring pixels, rad.
     pub pixel_rad: f64,
-    place_from_level: Turn,
-    looks: Vec<Reading>,
+    pub(super) place_from_level: Turn,
+    pub(super) looks: Vec<Reading>,
     readings: &'a Readings<'a>,
 }
 
@@ -146,13 +153,19 @@ impl<'a> Sight<'a> {
 
     /// The same of a place along the camera's axes, in pixels times depth.
     #[inline]
-    fn index_at(&self, place: &Vec3) -> Option<usize> {
+    pub fn index_at(&self, place: &Vec3) -> Option<usize> {
         let [x, y] = pixel_at(place)?;
         // Half a pixel further, so that the whole part is the nearest.
         let (x, y) = (x + 0.5, y + 0.5);
         let within = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64;
         // Signed: to unsigned numbers of that size takes twice as long.
         within.then(|| y as i32 as usize * self.width + x as i32 as usize)
+    }
+
+    /// What a pixel has, be it a reading or not.
+    #[inline]
+    pub fn look_or_blank(&self, index: usize) -> &Reading {
+        &self.looks[index]
     }
 
     pub fn reading(&self, index: usize) -> Option<Vec3> {
@@ -180,11 +193,6 @@ impl<'a> Sight<'a> {
         (look.says(off, along, model_m), Some(look))
     }
 
-    /// Points in rows along one direction of a surface, to be asked row by row.
-    pub fn rows(&self, along: Vec3) -> Rows<'_> {
-        Rows { sight: self, step: self.place_from_level.times(&along) }
-    }
-
     /// Pixels that a piece of surface of that area fills.
     pub fn pixels(&self, point: &Vec3, normal: &Vec3, area_m2: f64) -> f64 {
         let ray = point - self.eye;
@@ -198,39 +206,6 @@ impl<'a> Sight<'a> {
 fn pixel_at(place: &Vec3) -> Option<[f64; 2]> {
     let inverse = 1.0 / place.z;
     (place.z > 1e-3).then(|| [place.x * inverse, place.y * inverse])
-}
-
-/// Asks for points of a surface row by row, as `Sight::ask` does for one: what a row's points share is worked out once.
-pub struct Rows<'a> {
-    sight: &'a Sight<'a>,
-    /// One metre along the rows.
-    step: Vec3,
-}
-
-impl<'a> Rows<'a> {
-    pub fn eye(&self) -> Vec3 {
-        self.sight.eye
-    }
-
-    /// Of the row through a point; the normal is square to it. What the camera says of the row's points so many metres along it.
-    #[inline]
-    pub fn ask(
-        &self,
-        middle: &Vec3,
-        normal: &Vec3,
-        model_m: f64,
-        columns_m: &'a [f64],
-    ) -> impl Iterator<Item = (Says, Option<&'a Reading>)> + use<'a> {
-        let from_eye = middle - self.sight.eye;
-        let place = self.sight.place_from_level.times(&from_eye);
-        let (sight, step, normal) = (self.sight, self.step, *normal);
-        let (along, from_origin) = (normal.dot(&from_eye), normal.dot(middle));
-        columns_m.iter().map(move |column_m| {
-            let Some(index) = sight.index_at(&(place + step * *column_m)) else { return (Says::Outside, None) };
-            let Some(look) = sight.look(index) else { return (Says::Blank, None) };
-            (look.says(normal.dot(&look.at()) - from_origin, along, model_m), Some(look))
-        })
-    }
 }
 
 /// A matrix whose product with a vector the compiler lays out where it stands: nalgebra's calls two functions.
@@ -288,47 +263,4 @@ pub fn level(projection: &Projection, up: &Vec3, support: &Plane) -> Isometry3<f
 pub fn lowest(scene: &Scene) -> Option<Plane> {
     let heights = scene.segments.hulls.iter().flatten().map(|corner| scene.up.dot(corner));
     Some(Plane { normal: scene.up, distance: heights.reduce(f64::min)? })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::SplitMix64;
-    use crate::perception::PerceptionSettings;
-
-    #[test]
-    fn rows_say_what_their_points_say() {
-        // A wavy floor before a pinhole camera, with holes.
-        let (width, height, focal) = (160, 120, 130.0_f32);
-        let place = |i: usize| {
-            let (u, v) = ((i % width) as f32, (i / width) as f32);
-            let z = match i % 11 {
-                0 => f32::NAN,
-                _ => 1.2 + 0.02 * (u / 7.0).sin() * (v / 5.0).cos(),
-            };
-            [(u - 80.0) / focal * z, (v - 60.0) / focal * z, z]
-        };
-        let points: Vec<[f32; 3]> = (0..width * height).map(place).collect();
-        let cloud = CloudView { points: &points, width, height, viewpoint: Some(Vec3::zeros()) };
-        let settings = PerceptionSettings::default();
-        let readings = Readings::new(&cloud, &settings);
-        let sight = Sight::in_level(&cloud, &readings, Isometry3::identity()).unwrap();
-        let mut random = SplitMix64::new(3);
-        let mut draw = |low: f64, high: f64| low + random.unit() * (high - low);
-        let mut counts = [0; 5];
-        for _ in 0..400 {
-            let along = Vec3::new(draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-0.3, 0.3)).normalize();
-            let normal = along.cross(&Vec3::new(draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0))).normalize();
-            let middle = Vec3::new(draw(-0.8, 0.8), draw(-0.6, 0.6), draw(1.15, 1.25));
-            let columns_m: [f64; 12] = std::array::from_fn(|i| 0.02 * (i as f64 - 5.5));
-            let rows = sight.rows(along);
-            for ((says, look), column_m) in rows.ask(&middle, &normal, 0.004, &columns_m).zip(columns_m) {
-                let (expected, reading) = sight.ask(&(middle + along * column_m), &normal, 0.004);
-                assert_eq!((says, look.map(Reading::at)), (expected, reading.map(Reading::at)));
-                counts[says as usize] += 1;
-            }
-        }
-        assert_eq!(counts.iter().sum::<usize>(), 4800);
-        assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
-    }
 }

@@ -1,7 +1,5 @@
 //! Where a box lies in the image, row by row: rays beside it need not be asked.
 
-/// Readings may lie so many pixels beside where the projection has them.
-const MARGIN_PX: f64 = 2.0;
 const AXES: usize = 3;
 const EDGES: usize = 12;
 
@@ -37,6 +35,9 @@ pub struct Silhouette {
 }
 
 impl Silhouette {
+    /// Readings may lie so many pixels beside where the projection has them.
+    pub const MARGIN_PX: f64 = 2.0;
+
     /// Of corners in pixels; bit `a` of a corner's number is its end along axis `a`.
     fn new(corners: [[f64; 2]; 8]) -> Self {
         // The face at an axis' lower end shows one way round, that at its upper end the other, or else its back.
@@ -81,19 +82,38 @@ impl Silhouette {
 
     /// Least and most column that it reaches in a row, the margin included; the first is the greater where it does not reach.
     pub fn columns(&self, row: f64) -> [f64; 2] {
-        let (above, below) = (row - MARGIN_PX, row + MARGIN_PX);
+        let (above, below) = (row - Silhouette::MARGIN_PX, row + Silhouette::MARGIN_PX);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for line in &self.lines[..self.count] {
             if line.to_row < above || line.from[1] > below {
                 continue;
             }
             // A level edge lies between the ends of two others.
-            for row in [above.max(line.from[1]), below.min(line.to_row)] {
+            for row in [higher(above, line.from[1]), lower(below, line.to_row)] {
                 let column = line.column(row);
-                (low, high) = (low.min(column), high.max(column));
+                (low, high) = (lower(low, column), higher(high, column));
             }
         }
-        [low - MARGIN_PX, high + MARGIN_PX]
+        [low - Silhouette::MARGIN_PX, high + Silhouette::MARGIN_PX]
+    }
+}
+
+/// Of numbers: the library's ask whether they are.
+#[inline(always)]
+fn lower(a: f64, b: f64) -> f64 {
+    if a < b {
+        a
+    } else {
+        b
+    }
+}
+
+#[inline(always)]
+fn higher(a: f64, b: f64) -> f64 {
+    if a > b {
+        a
+    } else {
+        b
     }
 }
 
@@ -125,7 +145,7 @@ mod tests {
                 let [u, v] = pixel([draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0)]);
                 let [low, high] = outline.columns(v.round());
                 assert!(low <= u && u <= high, "{low} {u} {high}");
-                assert!(left <= low + 2.0 * MARGIN_PX && high <= right + 2.0 * MARGIN_PX);
+                assert!(left <= low + 2.0 * Silhouette::MARGIN_PX && high <= right + 2.0 * Silhouette::MARGIN_PX);
                 assert!(top <= v && v <= bottom);
                 cases += 1;
             }
@@ -137,7 +157,10 @@ mod tests {
                 for share in [0.0, 0.3, 0.7, 1.0] {
                     let (at, row) = (u + share * (x - u), v + share * (y - v));
                     let [low, high] = outline.columns(row);
-                    assert!(low + MARGIN_PX <= at + 1e-6 && at <= high - MARGIN_PX + 1e-6, "{low} {at} {high}");
+                    assert!(
+                        low + Silhouette::MARGIN_PX <= at + 1e-6 && at <= high - Silhouette::MARGIN_PX + 1e-6,
+                        "{low} {at} {high}"
+                    );
                     of_edges += 1;
                 }
             }

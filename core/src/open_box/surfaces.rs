@@ -2,42 +2,42 @@
 
 use super::sight::Sight;
 use crate::fit::{layout, FittedBody, Rim, Role};
-use crate::geometry::{Plane, Vec3};
+use crate::geometry::Vec3;
 
 /// How far beyond its ends a panel still takes readings: edges are ragged, ends not yet known.
-const BEYOND_M: f64 = 0.006;
+pub const BEYOND_M: f64 = 0.006;
 /// Walls end, at the rim and where they meet, by this much.
-const WALL_BEYOND_M: f64 = 0.004;
+pub const WALL_BEYOND_M: f64 = 0.004;
+/// The same of flaps before their hinges.
+pub const BEHIND_M: f64 = 0.002;
 
 /// A panel's face that the camera sees, and its ends.
 pub struct Surface {
-    role: Role,
-    rim: Rim,
+    pub(super) role: Role,
+    pub(super) rim: Rim,
     /// Of the base: the rims of all sides.
-    rims: [Rim; 4],
-    edge_half_m: f64,
-    height_m: f64,
-    half_board_m: f64,
-    board_m: f64,
+    pub(super) rims: [Rim; 4],
+    pub(super) edge_half_m: f64,
+    pub(super) height_m: f64,
+    pub(super) half_board_m: f64,
+    pub(super) board_m: f64,
     /// Half boards off the middle.
-    face: f64,
+    pub(super) face: f64,
     /// The sine of the angle between a flat panel and the way that its hinge is seen from.
     seen_at_sin: f64,
     /// Whether readings lie anywhere in its board, on its edge as on its face.
     is_from_edge: bool,
-    normal: Vec3,
-    bulge_m: f64,
-    sin: f64,
-    cos: f64,
-    length_m: f64,
-    width_m: f64,
-    offset_m: f64,
-    taper_m: f64,
-    curl: f64,
+    pub(super) normal: Vec3,
+    pub(super) bulge_m: f64,
+    pub(super) sin: f64,
+    pub(super) cos: f64,
+    pub(super) length_m: f64,
+    pub(super) width_m: f64,
+    pub(super) offset_m: f64,
+    pub(super) taper_m: f64,
+    pub(super) curl: f64,
     /// Of a tuck flap: its hinge in the rim's frame.
-    from: [f64; 2],
-    plane: Plane,
-    slack_m: f64,
+    pub(super) from: [f64; 2],
 }
 
 /// A flap that is seen at less than this angle, which is as good as its sine, is seen from its edge: beyond, it shows more of its face.
@@ -85,16 +85,14 @@ impl Surface {
             _ => cos * (at.above - from[1]) - sin * (at.inward - from[0]),
         };
         let half_board_m = body.board_m() / 2.0;
-        let (point, bow_m) = match role {
-            Role::Base => (Vec3::z() * (2.0 * half_board_m), 0.0),
-            Role::Side(_) => (rim.place(0.0, 0.0, 0.0), body.get(layout::bulge(k)).abs()),
-            _ => (rim.place(0.0, from[0], from[1]), curl.abs() * (length_m + BEYOND_M).powi(2) / 2.0),
+        let point = match role {
+            Role::Base => Vec3::z() * (2.0 * half_board_m),
+            Role::Side(_) => rim.place(0.0, 0.0, 0.0),
+            _ => rim.place(0.0, from[0], from[1]),
         };
         Self {
             role,
             rim,
-            plane: Plane { normal, distance: normal.dot(&point) },
-            slack_m: half_board_m + bow_m,
             rims: [0, 1, 2, 3].map(|k| Rim::new(body, k)),
             edge_half_m: body.edge_m(k) / 2.0,
             height_m: body.get(layout::HEIGHT),
@@ -137,16 +135,40 @@ impl Surface {
         Some([at.along, away, off])
     }
 
-    /// The flat panel's plane in the object's frame, and how far off it the face may lie, metres.
-    pub fn plane(&self) -> (Plane, f64) {
-        (self.plane, self.slack_m)
-    }
-
     pub fn role(&self) -> Role {
         self.role
     }
 
+    /// A corner of what holds all readings that it may take, no further than `most_m` off its face: by its ends along the hinge, away from
+    /// it and off the face. Object's frame.
+    pub fn corner(&self, ends: [usize; 3], most_m: f64) -> Vec3 {
+        let [side, away, off] = ends.map(|end| [-1.0, 1.0][end]);
+        match self.role {
+            Role::Base => {
+                let rim = if away < 0.0 { &self.rims[0] } else { &self.rims[2] };
+                let above = self.board_m + off * most_m - self.height_m;
+                rim.place(-side * away * self.edge_half_m, 0.0, above)
+            }
+            Role::Side(_) => {
+                let along = side * (self.edge_half_m + self.half_board_m + WALL_BEYOND_M);
+                let above = if away < 0.0 { WALL_BEYOND_M } else { -self.height_m - WALL_BEYOND_M };
+                let bulge = (off * self.bulge_m).max(0.0) * off;
+                self.rim.place(along, -(self.face * self.half_board_m + bulge + off * most_m), above)
+            }
+            Role::Flap(_) | Role::Tuck(_) => {
+                let along = self.offset_m + side * (self.width_m / 2.0 + (-self.taper_m).max(0.0) + BEYOND_M);
+                let far = self.length_m + BEYOND_M;
+                let x = if away < 0.0 { -BEHIND_M } else { far };
+                let bow = (off * self.curl).max(0.0) * off * far * far / 2.0;
+                let y = bow + off * (self.half_board_m + most_m);
+                let (inward, above) = (self.cos * x - self.sin * y, self.sin * x + self.cos * y);
+                self.rim.place(along, self.from[0] + inward, self.from[1] + above)
+            }
+        }
+    }
+
     /// How far off the face a point of the object's frame lies, and the ray's share along the normal; `None` beyond its ends.
+    #[inline]
     pub fn off(&self, q: &Vec3, ray: &Vec3) -> Option<(f64, f64)> {
         let off = match self.role {
             Role::Base => {
@@ -171,7 +193,7 @@ impl Surface {
                 let (x, y) = (self.cos * b + self.sin * c, self.cos * c - self.sin * b);
                 let way = x.max(0.0) / self.length_m.max(1e-3);
                 let aside = (at.along - self.offset_m).abs() - self.width_m / 2.0 + self.taper_m * way.min(1.0);
-                if x < -0.002 || x > self.length_m + BEYOND_M || aside > BEYOND_M {
+                if x < -BEHIND_M || x > self.length_m + BEYOND_M || aside > BEYOND_M {
                     return None;
                 }
                 let y = y - self.curl * x * x / 2.0;

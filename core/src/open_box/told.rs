@@ -58,7 +58,7 @@ mod tests {
         let parts = roles.iter().zip(readings).map(|(role, count)| (*role, vec![0; count])).collect();
         let first = [true, false, false, false];
         let present = Present { flaps: first, tucks: first, ..Present::default() };
-        let solution = Solution { body, covariance: DMatrix::zeros(0, 0), motions: Vec::new() };
+        let solution = Solution { body, covariance: DMatrix::zeros(0, 0).into(), motions: Vec::new() };
         FoundBox::unjudged(solution, present, Labels { parts, stride: 1 }, vec![(Role::Flap(0), flap)], 0.0)
     }
 

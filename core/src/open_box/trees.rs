@@ -17,11 +17,16 @@ pub struct Forest {
     roots: Vec<usize>,
 }
 
+/// A leaf with what it adds, or a split with its bound: the tree above it is rooted one before, the tree up to it where that is told.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Node {
-    Leaf(f64),
-    Split { feature: usize, bound: f64, up_to: usize, above: usize },
+struct Node {
+    value: f64,
+    /// `LEAF` of a leaf.
+    feature: u32,
+    up_to: u32,
 }
+
+const LEAF: u32 = u32::MAX;
 
 impl Forest {
     /// # Errors
@@ -37,10 +42,12 @@ impl Forest {
 
     fn add(&mut self, tree: &Tree, known: &[&str]) -> Result<usize, String> {
         let node = match tree {
-            Tree::Leaf(value) => Node::Leaf(*value),
+            Tree::Leaf(value) => Node { value: *value, feature: LEAF, up_to: 0 },
             Tree::Split(name, bound, up_to, above) => {
                 let feature = known.iter().position(|other| other == name).ok_or_else(|| name.clone())?;
-                Node::Split { feature, bound: *bound, up_to: self.add(up_to, known)?, above: self.add(above, known)? }
+                let up_to = self.add(up_to, known)? as u32;
+                self.add(above, known)?;
+                Node { value: *bound, feature: feature as u32, up_to }
             }
         };
         self.nodes.push(node);
@@ -54,12 +61,11 @@ impl Forest {
 
     fn at(&self, mut number: usize, values: &[f64]) -> f64 {
         loop {
-            match self.nodes[number] {
-                Node::Leaf(value) => return value,
-                Node::Split { feature, bound, up_to, above } => {
-                    number = if values[feature] <= bound { up_to } else { above };
-                }
+            let node = self.nodes[number];
+            if node.feature == LEAF {
+                return node.value;
             }
+            number = if values[node.feature as usize] <= node.value { node.up_to as usize } else { number - 1 };
         }
     }
 }
