@@ -13,6 +13,9 @@ from boxwright.types.board import BOARD_THICKNESS_M
 LEAST_FLAP_M = 0.005
 """A flap that is shorter or narrower gives a finger nothing to push: it counts as absent."""
 
+UNDER_M = 0.015
+"""A box with a corner of its base so far above the support stands on something."""
+
 LEAST_PRESENT = 0.5
 """A part that is less probable than this to be there is absent."""
 
@@ -20,8 +23,9 @@ LEAST_PRESENT = 0.5
 def measured_box(model: Model, index: int, base_from_input: Matrix) -> dict[str, Any]:
     """Boards, flaps and support around object `index`, metres, the robot's base frame.
 
-    Other objects' boards stand in the way as they are. A part is a flap where it hangs on a side, a tuck where it hangs
-    on a flap. Raises ValueError where the model has no such object, or where nothing of it turns.
+    Other objects' boards stand in the way as they are, and so does what a base that leans stands on, which nobody sees:
+    all between it and the support. A part is a flap where it hangs on a side, a tuck where it hangs on a flap. Raises
+    ValueError where the model has no such object, or where nothing of it turns.
     """
     if not 0 <= index < len(model.objects):
         had = f"it has {len(model.objects)}, counted from 0" if model.objects else "no box was found in it"
@@ -35,11 +39,12 @@ def measured_box(model: Model, index: int, base_from_input: Matrix) -> dict[str,
     for number, other in enumerate(model.objects):
         if number != index:
             fixed += _boards(other, set(), base_from_input, f"object_{number}_")
+    support = _support(model, base_from_input)
     return {
         "thickness_m": chosen.thickness or BOARD_THICKNESS_M,
-        "fixed": fixed,
+        "fixed": fixed + _under(chosen, support, base_from_input),
         "flaps": flaps,
-        "support": _support(model, base_from_input),
+        "support": support,
     }
 
 
@@ -48,6 +53,28 @@ def _boards(model_object: Object, left_out: set[str], base_from_input: Matrix, p
         {"name": f"{prefix}{part.name}", "corners": _corners(part, base_from_input)}
         for part in model_object.parts
         if part.corners is not None and part.name not in left_out
+    ]
+
+
+def _under(
+    model_object: Object, support: tuple[list[float], float] | None, base_from_input: Matrix
+) -> list[dict[str, Any]]:
+    """Upright boards from the edges of a base that leans down to the support: there is no way under it."""
+    base = next((part for part in model_object.parts if part.name == "base" and part.corners is not None), None)
+    if base is None or support is None:
+        return []
+    up, corners = np.array(support[0]), np.array(_corners(base, base_from_input))
+    heights_m = corners @ up - support[1]
+    if heights_m.max() < UNDER_M:
+        return []
+    feet = corners - np.maximum(heights_m, LEAST_FLAP_M)[:, None] * up
+    around = [(k, (k + 1) % len(corners)) for k in range(len(corners))]
+    return [
+        {
+            "name": "what it stands on",
+            "corners": [corners[i].tolist(), corners[j].tolist(), feet[j].tolist(), feet[i].tolist()],
+        }
+        for i, j in around
     ]
 
 

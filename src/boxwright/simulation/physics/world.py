@@ -21,10 +21,12 @@ from boxwright.simulation.physics.settings import PhysicsSettings
 Array = NDArray[np.float64]
 
 SUPPORT = "support"
-WEDGE_MARGIN_M = 0.15
 LEVEL_RAD = np.radians(0.1)
 """A base that leans by more stands on a wedge, as on the book that tilts it."""
-WEDGE_M = 0.02
+WEDGE_M = 0.01
+FLOOR_RAD = np.radians(1.5)
+"""Up to that it is the floor that leans: the wedge goes on beyond the base, for a box that slides."""
+FLOOR_MARGIN_M = 0.15
 
 
 class ToolNames(msgspec.Struct, frozen=True):
@@ -116,8 +118,10 @@ def _add_support(spec: mujoco.MjSpec, box: BoardBox, settings: PhysicsSettings) 
         rgba=(0.55, 0.57, 0.6, 1.0),
         **rough,
     )
-    if np.arccos(np.clip(frame[:3, 2] @ box.up, -1.0, 1.0)) > LEVEL_RAD:
-        half = np.abs((under - frame[:3, 3]) @ frame[:3, :2]).max(axis=0) + WEDGE_MARGIN_M
+    tilt_rad = np.arccos(np.clip(frame[:3, 2] @ box.up, -1.0, 1.0))
+    if tilt_rad > LEVEL_RAD:
+        margin_m = FLOOR_MARGIN_M if tilt_rad <= FLOOR_RAD else 0.0
+        half = np.abs((under - frame[:3, 3]) @ frame[:3, :2]).max(axis=0) + margin_m
         quat = np.zeros(4)
         mujoco.mju_mat2Quat(quat, np.ascontiguousarray(frame[:3, :3]).reshape(9))
         support.add_geom(
