@@ -146,6 +146,24 @@ def test_a_box_is_found_again_and_numbered_as_the_plan_does() -> None:
         matched([elsewhere], there)
 
 
+def test_the_wedge_under_a_box_that_leans_ends_where_its_base_does() -> None:
+    truth = truth_of(carton())
+    counted = 0
+    for lean_deg, margin_m in ((0.0, None), (1.0, 0.15), (12.0, 0.0)):
+        lean_rad = math.radians(lean_deg)
+        leaning = msgspec.structs.replace(truth, up=(math.sin(lean_rad), 0.0, math.cos(lean_rad)))
+        box = true_box(leaning, 0, np.eye(4))
+        model = build_world(box, crease_class("ordinary"), PhysicsSettings()).model
+        of_support = [k for k in range(model.ngeom) if model.geom_bodyid[k] == model.body("support").id]
+        wedges = [k for k in of_support if model.geom_type[k] == mujoco.mjtGeom.mjGEOM_BOX]
+        assert len(wedges) == (margin_m is not None)
+        for k in wedges:
+            local = (box.board("base").corners - box.world_from_box[:3, 3]) @ box.world_from_box[:3, :2]
+            np.testing.assert_allclose(model.geom_size[k][:2], np.abs(local).max(axis=0) + margin_m)
+            counted += 1
+    assert counted == 2
+
+
 def test_what_cannot_stand_is_refused() -> None:
     truth = truth_of(carton())
     with pytest.raises(ValueError, match="box 1 is not there"):

@@ -9,25 +9,25 @@ use super::factor::Factor;
 
 /// A covariance that is worked out when it is first asked for.
 #[derive(Debug, Clone)]
-pub struct Covariance(Arc<Told>);
+pub struct Covariance(Arc<Known>);
 
 #[derive(Debug)]
-struct Told {
-    /// Of its inverse; `None` where it was told.
-    factor: Option<Factor>,
-    matrix: OnceLock<DMatrix<f64>>,
+enum Known {
+    /// What its inverse is made of, and itself once it was asked for.
+    Inverse(Box<Factor>, OnceLock<DMatrix<f64>>),
+    Itself(DMatrix<f64>),
 }
 
 impl Covariance {
     /// The inverse of a curvature.
     pub fn of(factor: Factor) -> Self {
-        Self(Arc::new(Told { factor: Some(factor), matrix: OnceLock::new() }))
+        Self(Arc::new(Known::Inverse(Box::new(factor), OnceLock::new())))
     }
 }
 
 impl From<DMatrix<f64>> for Covariance {
     fn from(matrix: DMatrix<f64>) -> Self {
-        Self(Arc::new(Told { factor: None, matrix: OnceLock::from(matrix) }))
+        Self(Arc::new(Known::Itself(matrix)))
     }
 }
 
@@ -35,7 +35,9 @@ impl Deref for Covariance {
     type Target = DMatrix<f64>;
 
     fn deref(&self) -> &DMatrix<f64> {
-        let Told { factor, matrix } = &*self.0;
-        matrix.get_or_init(|| factor.as_ref().map_or_else(|| DMatrix::zeros(0, 0), Factor::inverse))
+        match &*self.0 {
+            Known::Inverse(factor, matrix) => matrix.get_or_init(|| factor.inverse()),
+            Known::Itself(matrix) => matrix,
+        }
     }
 }

@@ -2,13 +2,10 @@
 
 use wide::f32x4;
 
-use super::sight::{side_by_side, Reading, Sight};
+use super::sight::{side_by_side, Reading, Sight, LANES};
 use super::surfaces::{Surface, BEHIND_M, BEYOND_M, WALL_BEYOND_M};
 use crate::fit::{FittedBody, Rim, Role};
 use crate::geometry::Vec3;
-
-/// Readings are looked at so many together.
-pub const LANES: usize = 4;
 
 /// What single precision tells of a reading.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

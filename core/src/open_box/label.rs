@@ -1,9 +1,9 @@
 //! Which panel of a body each reading lies on.
 
-use super::faces::{Faces, On, LANES};
+use super::faces::{Faces, On};
 use super::footprints::Footprints;
 use super::labels::{roles, Labels, Present};
-use super::sight::{Sight, Turn};
+use super::sight::{Sight, Turn, LANES};
 use super::silhouette::Silhouette;
 use super::surfaces::Surface;
 use crate::fit::{layout, FittedBody, Rim, Role};

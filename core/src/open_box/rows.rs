@@ -4,10 +4,9 @@
 use wide::f32x4;
 
 use super::hinge_line::HingeLine;
-use super::sight::{side_by_side, Says, Sight};
+use super::sight::{side_by_side, Says, Sight, LANES};
 use crate::geometry::Vec3;
 
-const LANES: usize = 4;
 /// Columns of a row, at most.
 pub const MOST_COLUMNS: usize = 12;
 /// What is nearer to a bound, metres and pixels, double precision tells: single precision errs by a tenth of it.

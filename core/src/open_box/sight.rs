@@ -56,9 +56,12 @@ impl Reading {
     }
 }
 
-/// Four readings' coordinates and noise, each by itself.
+/// Readings, or points, are looked at so many together.
+pub const LANES: usize = 4;
+
+/// Their coordinates and noise, each by itself.
 #[inline(always)]
-pub fn side_by_side(readings: [&Reading; 4]) -> [f32x4; 4] {
+pub fn side_by_side(readings: [&Reading; LANES]) -> [f32x4; 4] {
     f32x4::transpose(readings.map(|&Reading { at: [x, y, z], noise }| f32x4::new([x, y, z, noise])))
 }
 

@@ -61,7 +61,7 @@ impl<G: Guard> Layers<'_, G> {
     /// All contacts of the first layer that leave the box where it is, the best first, and the finger in each orientation.
     fn grips_by_penalty(&self, frame: &FlapFrame, tally: &mut Tally) -> (Vec<PlaceTurned>, Vec<Option<Turned>>) {
         let (mut found, mut moving) = (Vec::new(), 0);
-        let turned_once = self.alike_once && turns_whole(self.arm);
+        let turned_once = self.alike_once && is_alike_turned(self.arm);
         let orientations = 0..self.contacts.grid.size();
         let all_turned = orientations.map(|orientation| {
             let is_asked = !(turned_once && OrientationGrid::is_half_turned(orientation));
@@ -87,9 +87,10 @@ impl<G: Guard> Layers<'_, G> {
     }
 }
 
-/// Does the last joint make a whole turn? Then what a gripper can do it can do turned by half a turn, too.
-fn turns_whole(arm: &Arm) -> bool {
-    arm.joints.last().is_some_and(|joint| joint.upper_rad - joint.lower_rad >= TAU)
+/// Can the gripper do turned by half a turn what it can do? The last joint makes a whole turn then, and the tool lies on its axis.
+fn is_alike_turned(arm: &Arm) -> bool {
+    let turns_whole = arm.joints.last().is_some_and(|joint| joint.upper_rad - joint.lower_rad >= TAU);
+    turns_whole && arm.gripper.tool_point_m.xy() == nalgebra::Vector2::zeros()
 }
 
 /// Is a posture one of the others but for whole turns of joints, and further from the middle of their limits?
@@ -120,7 +121,9 @@ mod tests {
     #[test]
     fn of_postures_that_differ_by_whole_turns_alone_the_one_in_the_middle_is_looked_at() {
         let arm = Arm::from_toml(VIPER).unwrap();
-        assert!(turns_whole(&arm));
+        assert!(is_alike_turned(&arm));
+        let aside = VIPER.replace("tool_point_m = [0.0,", "tool_point_m = [0.01,");
+        assert!(!is_alike_turned(&Arm::from_toml(&aside).unwrap()));
         let posture = |wrist_rad: f64, last_rad: f64| {
             Posture::new(JointPositions::from_slice(&[0.1, -1.0, 2.0, wrist_rad, 0.5, last_rad]), 0, 0.0)
         };

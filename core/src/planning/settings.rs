@@ -215,7 +215,7 @@ impl PlanningSettings {
         }
     }
 
-    /// With the contacts of each search but the first, one after the other.
+    /// With the contacts of each search but the first, one after the other; more searches than that have those of the last.
     pub fn with_finer_contacts(&self) -> [Self; 3] {
         let fine = self.with_fine_contacts();
         let (step_m, most) = (self.finest_step_m, self.most_finest_contacts);

@@ -16,6 +16,9 @@ LEAST_FLAP_M = 0.005
 UNDER_M = 0.015
 """A box with a corner of its base so far above the support stands on something."""
 
+LEAST_UNDER_M = 0.005
+"""Where the base lies on the support a board under its edge is so high all the same: one of no height is none."""
+
 LEAST_PRESENT = 0.5
 """A part that is less probable than this to be there is absent."""
 
@@ -67,7 +70,7 @@ def _under(
     heights_m = corners @ up - support[1]
     if heights_m.max() < UNDER_M:
         return []
-    feet = corners - np.maximum(heights_m, LEAST_FLAP_M)[:, None] * up
+    feet = corners - np.maximum(heights_m, LEAST_UNDER_M)[:, None] * up
     around = [(k, (k + 1) % len(corners)) for k in range(len(corners))]
     return [
         {

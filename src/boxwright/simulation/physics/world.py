@@ -24,6 +24,7 @@ SUPPORT = "support"
 LEVEL_RAD = np.radians(0.1)
 """A base that leans by more stands on a wedge, as on the book that tilts it."""
 WEDGE_M = 0.01
+"""So thin that under a base that leans by 20 degrees it stands out by less than the clearance of plans."""
 FLOOR_RAD = np.radians(1.5)
 """Up to that it is the floor that leans: the wedge goes on beyond the base, for a box that slides."""
 FLOOR_MARGIN_M = 0.15
