@@ -101,7 +101,6 @@ def _add_board(
     body = parent.add_body(name=prefix + board.name, pos=here[:3, 3], quat=_quat(here))
     # A racked base is no stair: four corners are what it stands on.
     slabs = slabs_of(board.corners, box.thickness_m, _trim(board, box), stair=board.name != "base")
-    # A racked base is no stair: four corners are what it stands on.
     total_m2 = sum(4.0 * slab.half_m[0] * slab.half_m[1] for slab in slabs)
     for slab in slabs:
         share = 4.0 * slab.half_m[0] * slab.half_m[1] / total_m2
