@@ -21,6 +21,7 @@ from boxwright.simulation.physics.matching import matched, renumbered
 from boxwright.simulation.physics.moved import box_as_it_stands
 from boxwright.simulation.physics.slabs import slabs_of
 from boxwright.simulation.physics.stage import Stage
+from boxwright.simulation.physics.state import standing_state
 from boxwright.simulation.physics.world import build_world
 from support.random_models import panels, random_angles, random_object, random_spec
 from support.true_boxes import carton, truth_of
@@ -105,15 +106,48 @@ def test_boards_turn_as_the_generator_builds_them() -> None:
     assert counted > 45
 
 
-def test_slabs_cover_a_tapered_panel_within_a_few_millimetres() -> None:
-    corners = np.array([[0.0, 0, 0], [0.3, 0, 0], [0.27, 0.12, 0], [0.02, 0.12, 0]])
-    slabs = slabs_of(corners, 0.004)
-    area = sum(4.0 * slab.half_m[0] * slab.half_m[1] for slab in slabs)
-    assert len(slabs) == 5
-    assert area == pytest.approx((0.3 + 0.25) / 2 * 0.12, rel=1e-9)
-    for slab in slabs:
-        y = slab.centre[1]
-        assert slab.centre[0] - slab.half_m[0] == pytest.approx(0.02 * y / 0.12, abs=1e-9)
+def test_slabs_cover_a_tapered_panel_and_nothing_beside_it() -> None:
+    rng, counted = np.random.default_rng(5), 0
+    shares = rng.uniform(0.0, 1.0, (2000, 2))
+    for _ in range(40):
+        wide_m, deep_m = rng.uniform(0.06, 0.4), rng.uniform(0.04, 0.3)
+        left, right = rng.uniform(-0.02, 0.2, 2) * wide_m
+        corners = np.array([[0.0, 0, 0], [wide_m, 0, 0], [wide_m - right, deep_m, 0], [left, deep_m, 0]])
+        left_x, right_x = left * shares[:, 1], wide_m - right * shares[:, 1]
+        points = np.column_stack(
+            [left_x + shares[:, 0] * (right_x - left_x), deep_m * shares[:, 1], np.zeros(len(shares))]
+        )
+        covered = np.zeros(len(points), dtype=bool)
+        for slab in slabs_of(corners, 0.004):
+            local = np.abs((points - slab.centre) @ slab.axes)
+            covered |= (local <= slab.half_m + 1e-9).all(axis=1)
+            signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+            ends = slab.centre + (signs * slab.half_m) @ slab.axes.T
+            share = ends[:, 1] / deep_m
+            beside = [left * share - ends[:, 0], ends[:, 0] - wide_m + right * share, -ends[:, 1], ends[:, 1] - deep_m]
+            assert max(side.max() for side in beside) < 0.0005
+        assert covered.mean() > 0.98
+        counted += 1
+    assert counted == 40
+
+
+def test_geoms_lie_where_a_tapered_flaps_slabs_do() -> None:
+    told = true_box(truth_of(carton(), x_m=0.5, y_m=-0.2, yaw_rad=0.7, z_m=-0.1), 0, np.eye(4))
+    flap = next(board for board, _ in told.hinged)
+    corners = flap.corners.copy()
+    middle = (corners[2] + corners[3]) / 2.0
+    corners[2:] = middle + 0.7 * (corners[2:] - middle)
+    boards = tuple(msgspec.structs.replace(b, corners=corners) if b.name == flap.name else b for b in told.boards)
+    box = msgspec.structs.replace(told, boards=boards)
+    world = build_world(box, crease_class("ordinary"), PhysicsSettings())
+    data = standing_state(world)
+    mujoco.mj_forward(world.model, data)
+    body = world.model.body(world.box.body_of[flap.name])
+    slabs = slabs_of(corners, box.thickness_m)
+    assert len(slabs) > 3
+    for slab, geom in zip(slabs, range(int(body.geomadr[0]), int(body.geomadr[0]) + len(slabs)), strict=True):
+        np.testing.assert_allclose(data.geom_xpos[geom], slab.centre, atol=1e-6)
+        np.testing.assert_allclose(data.geom_xmat[geom].reshape(3, 3), slab.axes, atol=1e-6)
 
 
 def test_weights_are_those_of_board_and_contents() -> None:

@@ -14,8 +14,8 @@ from boxwright.types import Plan
 
 ROBOT = "viper_s850"
 CREASE = "pre_broken"
-SLAMMING = ((1140, 94, "flap_0"), (1141, 137, "flap_0"), (1141, 41, "flap_0"))
-"""By seed, number and name: large lids that sink into flaps or rims where they fall on them."""
+SLAMMING = ((1140, 94, "flap_0"), (1142, 113, "flap_3"), (1141, 41, "flap_0"))
+"""By seed, number and name: large lids that sink into flaps, rims or a base where they fall on them."""
 LET_FALL = {"fork": {"most_fall_m_per_s": 100.0}}
 LOW_RAD = 0.5
 

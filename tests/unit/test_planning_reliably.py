@@ -44,6 +44,8 @@ BY_THE_TIP = (1134, 68, "flap_3")
 """One that is held with the very tip alone, or near its hinge."""
 JAMMING = ((1142, 218), (1141, 110))
 """Boxes out of square: a flap came down steeply on the free edge of one that sprang up, and the arm dragged them."""
+STEEPLY = (1144, 194, ("flap_0", "flap_2", "flap_3"))
+"""A box and the order that presses no end down steeply: the other drags it by 292 mm."""
 ON_A_LID = (1142, 70, ("flap_1", "flap_3"))
 """Short flaps over the corners of a lid that lies lower than it is told."""
 ON_THE_BASE = (1142, 113, "flap_3")
@@ -226,6 +228,15 @@ def test_flaps_that_would_jam_on_the_free_edge_of_another_wait() -> None:
         assert all(run.flaps[name].held for name in plan.order), f"problem {number}"
         assert run.max_force_n < GENTLE_N, f"problem {number}"
         assert run.box_slid_m < 0.005, f"problem {number}"
+
+
+def test_flaps_that_would_press_an_end_down_steeply_go_before_it_springs_up() -> None:
+    seed, number, order = STEEPLY
+    plan = _plan(seed, number, "ordinary")
+    run = simulate(plan, draw_problem(number, seed).model, crease="ordinary").simulation
+    assert plan.order == order
+    assert all(run.flaps[name].held for name in order)
+    assert run.box_slid_m < 0.005
 
 
 def test_flaps_on_a_lid_are_pressed_a_little_further_where_they_come_to_rest_closed_for_it() -> None:

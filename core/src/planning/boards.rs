@@ -1,10 +1,10 @@
 //! Which boards meet when a flap turns, whatever the arm does.
 
+use super::ends::run_into;
 use super::flap::Flap;
 use super::problem::BoxProblem;
 use super::reason::Obstacle;
 use super::settings::PlanningSettings;
-use crate::collision::{clear_by, OrientedBox, Solid};
 use crate::geometry::Vec3;
 
 /// The moving board is taken to be this much smaller all round: boards that only graze are given way by the folds, and models err
@@ -16,17 +16,34 @@ const GRAZE_SHARE: f64 = 0.1;
 const STEP_RAD: f64 = 0.06;
 /// The ends of a flap that has sprung up give way by this much to one that comes down beside them, to its free edge. Steeper than
 /// this it presses them aside rather than down: flap on flap has friction (0.3, as physics assumes it), and cannot slide where its
-/// tangent is steeper than 1 / friction, at 73.3 degrees; where flaps rest is told no better than what is added to that.
+/// tangent is steeper than 1 / friction, at 73.3 degrees; where flaps rest is told no better than what is added to that. A little below
+/// it takes many times the force that presses the end down, and moves boxes: that is left for last.
 const GIVING_END_M: f64 = 0.015;
 const JAM_RAD: f64 = 1.2915;
-/// A board that tapers ends at its free edge as it does half way, this much further out at most: physics has it as a stair.
-const STAIR_M: f64 = 0.003;
+const GENTLE_RAD: f64 = 1.2217;
 /// Of two neighbours the one that comes below this first goes under the other, and its ends give way (docs/physics.md): counted on
 /// short of the 15 mm there, as upright boards that meet by a hair jam.
 const DOWN_RAD: f64 = 1.047;
 const GOING_UNDER_END_M: f64 = 0.011;
 /// Boards that meet this soon after the start met there already, by the model's error.
 const START_RAD: f64 = 0.09;
+
+/// How steeply a flap may come down on the end of a neighbour that sprang up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Descent {
+    Gentle,
+    /// As long as boards do not jam.
+    Steep,
+}
+
+impl Descent {
+    fn steepest_rad(self) -> f64 {
+        match self {
+            Self::Gentle => GENTLE_RAD,
+            Self::Steep => JAM_RAD,
+        }
+    }
+}
 
 /// The first board that a flap meets on its way to an angle, while the others stand at `angles_rad`; None where the way is free.
 ///
@@ -36,6 +53,7 @@ pub fn met(
     angles_rad: &[f64],
     flap: usize,
     to_rad: f64,
+    descent: Descent,
     settings: &PlanningSettings,
 ) -> Option<Obstacle> {
     let moving = &problem.flaps[flap];
@@ -43,10 +61,16 @@ pub fn met(
     let others: Vec<Beside> =
         others.flat_map(|(k, other)| beside(moving, angles_rad[flap], other, angles_rad[k], settings)).collect();
     let from_rad = angles_rad[flap];
+    let across = problem.flaps.iter().enumerate().filter(|(_, other)| has_extent(other) && are_opposite(moving, other));
+    let mut jamming = across.filter(|&(k, other)| run_into(moving, (from_rad, to_rad), other, angles_rad[k]));
+    if let Some((_, other)) = jamming.next() {
+        return Some(Obstacle::Boards { flap: moving.name.clone(), other: other.name.clone() });
+    }
     let steps = ((from_rad - to_rad).abs() / STEP_RAD).ceil().max(1.0) as usize;
     let steps = (1..=steps).map(|step| (from_rad + (to_rad - from_rad) * step as f64 / steps as f64, false));
     // What lies stays there until it is pressed: what has met it by the angle where boards jam met it where it is steeper.
-    let jamming = std::iter::once((JAM_RAD.max(to_rad), true)).filter(|_| from_rad > JAM_RAD);
+    let steepest_rad = descent.steepest_rad();
+    let jamming = std::iter::once((steepest_rad.max(to_rad), true)).filter(|_| from_rad > steepest_rad);
     let asked = jamming.chain(steps);
     for (angle_rad, of_lying) in asked.filter(|(angle_rad, _)| (from_rad - angle_rad).abs() >= START_RAD) {
         let corners = moving.corners(angle_rad);
@@ -80,7 +104,7 @@ fn beside<'a>(
 ) -> Vec<Beside<'a>> {
     let gives_way = at_rad <= settings.lying_rad;
     if gives_way {
-        let corners = giving_ends(&other.corners(at_rad));
+        let corners = shortened(&other.corners(at_rad), GIVING_END_M, 0.0);
         return vec![Beside { name: &other.name, corners, gives_way, is_over: false }];
     }
     let are_neighbours = !are_opposite(moving, other);
@@ -108,14 +132,6 @@ fn shortened(corners: &[Vec3; 4], ends_m: f64, edges_m: f64) -> [Vec3; 4] {
         let (along, across) = if k % 2 == 0 { (k + 1, k + 3) } else { (k + 3, k + 1) };
         corners[k] + toward(along, ends_m) + toward(across, edges_m)
     })
-}
-
-/// What does not give way of a board that lies: all but its ends, those of its free edge a stair's step further out.
-fn giving_ends(corners: &[Vec3; 4]) -> [Vec3; 4] {
-    let [near_m, far_m] = [corners[1] - corners[0], corners[3] - corners[2]].map(|edge| edge.norm());
-    let step_m = ((near_m - far_m) / 4.0).clamp(0.0, STAIR_M);
-    let (near, far) = (shortened(corners, GIVING_END_M, 0.0), shortened(corners, GIVING_END_M - step_m, 0.0));
-    [near[0], near[1], far[2], far[3]]
 }
 
 /// Do two flaps hang on sides across from one another?
@@ -159,36 +175,6 @@ fn parted(p: &[[f64; 2]; 4], q: &[[f64; 2]; 4]) -> bool {
     })
 }
 
-/// Would a flap that is pushed below closed come to lie on other sides than its own? Their edges end half a board short of where they
-/// are told, as what is folded there turns about the middle of its board.
-pub fn stopped_by_rims(problem: &BoxProblem, flap: usize, hold_rad: f64, settings: &PlanningSettings) -> bool {
-    let own = &problem.flaps[flap].side;
-    stopped_by(problem, flap, hold_rad, settings, |name| name.starts_with("side_") && name != own)
-}
-
-/// The same of the box's base besides, which stops what falls into a flat box.
-pub fn stopped_by_box(problem: &BoxProblem, flap: usize, hold_rad: f64, settings: &PlanningSettings) -> bool {
-    let base = || stopped_by(problem, flap, hold_rad, settings, |name| name == "base");
-    stopped_by_rims(problem, flap, hold_rad, settings) || base()
-}
-
-fn stopped_by(
-    problem: &BoxProblem,
-    flap: usize,
-    hold_rad: f64,
-    settings: &PlanningSettings,
-    counts: impl Fn(&str) -> bool,
-) -> bool {
-    let moving = &problem.flaps[flap];
-    let Some(board) = OrientedBox::of_panel(&moving.corners(hold_rad), problem.thickness_m) else { return false };
-    let sides = problem.fixed.iter().filter(|side| counts(&side.name));
-    sides.filter_map(|side| OrientedBox::of_panel(&side.corners, problem.thickness_m)).any(|mut side| {
-        let half_m = Vec3::new(1.0, 1.0, 0.0) * (problem.thickness_m / 2.0);
-        side.half_m = (side.half_m - half_m).sup(&Vec3::repeat(problem.thickness_m / 4.0));
-        !clear_by(&Solid::Box(board), &Solid::Box(side), settings.rim_gap_m)
-    })
-}
-
 /// Do two flat convex quadrilaterals pass through each other?
 pub fn quads_cross(a: &[Vec3; 4], b: &[Vec3; 4]) -> bool {
     edges_cross(a, b) || edges_cross(b, a)
@@ -210,9 +196,7 @@ fn edges_cross(a: &[Vec3; 4], b: &[Vec3; 4]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
-    use super::super::problem::MeasuredBox;
+    use super::super::sample_box::{carton, tapered};
     use super::*;
 
     fn quad(corners: [[f64; 3]; 4]) -> [Vec3; 4] {
@@ -226,41 +210,6 @@ mod tests {
         assert!(quads_cross(&flat, &upright(0.5)));
         assert!(!quads_cross(&flat, &upright(1.1)));
         assert!(!quads_cross(&flat, &flat.map(|p| p + Vec3::z())));
-    }
-
-    const THICKNESS_M: f64 = 0.004;
-
-    /// A box of 0.4 by 0.3 by 0.2 m with flaps upright: so much narrower than their sides at each end, and so long.
-    fn carton(narrower_m: f64, lengths_m: [f64; 4]) -> BoxProblem {
-        tapered(narrower_m, 0.0, lengths_m)
-    }
-
-    /// The same with flaps that much narrower again at each end of their free edges.
-    fn tapered(narrower_m: f64, taper_m: f64, lengths_m: [f64; 4]) -> BoxProblem {
-        let rim = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]];
-        let mut sides = Vec::new();
-        let mut flaps = Vec::new();
-        for k in 0..4 {
-            let ends = [rim[k], rim[(k + 1) % 4]];
-            let at = |share: f64, z: f64| -> [f64; 3] {
-                std::array::from_fn(|i| if i == 2 { z } else { ends[0][i] + (ends[1][i] - ends[0][i]) * share })
-            };
-            let length_m = f64::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
-            let (start, end) = (narrower_m / length_m, 1.0 - narrower_m / length_m);
-            let taper = taper_m / length_m;
-            let side = json!({"name": format!("side_{k}"), "corners": [at(0.0, 0.2), at(1.0, 0.2), at(1.0, 0.0), at(0.0, 0.0)]});
-            let top = 0.2 + lengths_m[k];
-            let along: [f64; 3] =
-                std::array::from_fn(|i| if i == 2 { 0.0 } else { (ends[1][i] - ends[0][i]) / length_m });
-            let flap = json!({
-                "name": format!("flap_{k}"), "side": format!("side_{k}"), "standing": "seen", "origin": at(0.5, 0.2), "axis": along,
-                "position_rad": std::f64::consts::FRAC_PI_2, "corners": [at(start, 0.2), at(end, 0.2), at(end - taper, top), at(start + taper, top)],
-            });
-            sides.push(side);
-            flaps.push(flap);
-        }
-        let told = json!({"thickness_m": THICKNESS_M, "fixed": sides, "flaps": flaps, "support": null});
-        serde_json::from_value::<MeasuredBox>(told).unwrap().into_problem().unwrap()
     }
 
     #[test]
@@ -297,26 +246,12 @@ mod tests {
     }
 
     #[test]
-    fn rims_stop_flaps_that_are_wider_than_the_opening() {
-        let settings = PlanningSettings::default();
-        let counted = [(0.0, true), (0.001, true), (0.004, false)].map(|(narrower_m, stops)| {
-            let carton = carton(narrower_m, [0.1; 4]);
-            for flap in 0..4 {
-                assert_eq!(stopped_by_rims(&carton, flap, -0.15, &settings), stops, "{narrower_m} {flap}");
-            }
-            // One that reaches the side across from it lies on that.
-            assert!(stopped_by_rims(&self::carton(narrower_m, [0.3; 4]), 0, -0.05, &settings));
-        });
-        assert_eq!(counted.len(), 3);
-    }
-
-    #[test]
     fn a_flap_does_not_come_down_steeply_on_the_end_of_one_that_sprang_up() {
         let settings = PlanningSettings::default();
         let carton = carton(0.004, [0.2; 4]);
         let upright = std::f64::consts::FRAC_PI_2;
         let meets = |from_rad: f64, neighbour_rad: f64| {
-            met(&carton, &[from_rad, neighbour_rad, upright, upright], 0, 0.0, &settings)
+            met(&carton, &[from_rad, neighbour_rad, upright, upright], 0, 0.0, Descent::Steep, &settings)
         };
         // Ends 0.019 m from the corner whose free edges stand up by 0.01, 0.049 and 0.0639 m are met at 28, 69 and 73.4 degrees, those
         // of 0.0695 and 0.082 m at 74.7 and 77: steps that the flap comes down in pass over what is between.
@@ -337,14 +272,46 @@ mod tests {
     }
 
     #[test]
-    fn the_free_edge_of_a_board_that_tapers_counts_a_little_wider() {
+    fn a_gentle_descent_waits_for_ends_that_a_steep_one_presses_down() {
+        let settings = PlanningSettings::default();
+        let carton = carton(0.004, [0.2; 4]);
+        let upright = std::f64::consts::FRAC_PI_2;
+        // Met at 66, 71.3 and 75.3 degrees: by both pressed down, by the steep one alone, and by neither.
+        let asked = [(0.215, [false, false]), (0.285, [true, false]), (0.37, [true, true])];
+        let counted = asked.map(|(neighbour_rad, waits)| {
+            let waiting = [Descent::Gentle, Descent::Steep].map(|descent| {
+                met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, descent, &settings).is_some()
+            });
+            assert_eq!(waiting, waits, "{neighbour_rad}");
+        });
+        assert_eq!(counted.len(), 3);
+    }
+
+    #[test]
+    fn the_free_edge_of_a_board_that_tapers_counts_as_it_is() {
         let (settings, upright) = (PlanningSettings::default(), std::f64::consts::FRAC_PI_2);
-        // Ends that give way 0.025 m from the corner, 3 mm of which do not count: 0.0797 m are met at 74.6 degrees, not 72.6, and
-        // 0.0723 m at 73.1.
-        let counted = [(0.41, true), (0.37, false)].map(|(neighbour_rad, jams)| {
-            let problem = tapered(0.004, 0.006, [0.2; 4]);
+        // Ends that give way 0.023 m from the corner: 0.0816 m are met at 74.2 degrees, 0.0779 m at 73.5.
+        let counted = [(0.42, true), (0.40, false)].map(|(neighbour_rad, jams)| {
+            let problem = tapered(0.004, 0.004, [0.2; 4]);
             let angles_rad = [upright, neighbour_rad, upright, upright];
-            assert_eq!(met(&problem, &angles_rad, 0, 0.0, &settings).is_some(), jams, "{neighbour_rad}");
+            assert_eq!(
+                met(&problem, &angles_rad, 0, 0.0, Descent::Steep, &settings).is_some(),
+                jams,
+                "{neighbour_rad}"
+            );
+        });
+        assert_eq!(counted.len(), 2);
+    }
+
+    #[test]
+    fn a_flap_waits_for_the_one_across_whose_free_edge_its_own_would_run_into() {
+        let settings = PlanningSettings::default();
+        let carton = carton(0.004, [0.22, 0.1, 0.22, 0.1]);
+        let counted = [(0.82, true), (0.9, false)].map(|(across_rad, waits)| {
+            match met(&carton, &[1.2, 2.5, across_rad, 2.5], 0, 0.0, Descent::Steep, &settings) {
+                Some(Obstacle::Boards { other, .. }) => assert!(waits && other == "flap_2", "{across_rad}: {other}"),
+                _ => assert!(!waits, "{across_rad}"),
+            }
         });
         assert_eq!(counted.len(), 2);
     }
@@ -353,7 +320,8 @@ mod tests {
     fn ends_give_way_to_a_neighbour_that_stands() {
         let (settings, upright) = (PlanningSettings::default(), std::f64::consts::FRAC_PI_2);
         let meets = |wider_m: f64, neighbour_rad: f64| {
-            met(&carton(-wider_m, [0.2; 4]), &[upright, neighbour_rad, upright, upright], 0, 0.0, &settings).is_some()
+            let carton = carton(-wider_m, [0.2; 4]);
+            met(&carton, &[upright, neighbour_rad, upright, upright], 0, 0.0, Descent::Steep, &settings).is_some()
         };
         // Flaps that reach over the rim's corners, by less and by more than ends give way; a neighbour over the opening.
         let asked = [(0.004, upright, false), (0.009, 1.67, false), (0.014, upright, true), (0.004, 0.7, true)];
@@ -371,7 +339,11 @@ mod tests {
         let asked = [(0.0065, true), (0.009, false)].map(|(narrower_m, expected)| {
             let carton = carton(narrower_m, [0.05, 0.08, 0.05, 0.08]);
             let angles_rad = [std::f64::consts::FRAC_PI_2, 1.22, 2.5, 2.5];
-            assert_eq!(met(&carton, &angles_rad, 0, 0.0, &settings).is_some(), expected, "{narrower_m}");
+            assert_eq!(
+                met(&carton, &angles_rad, 0, 0.0, Descent::Steep, &settings).is_some(),
+                expected,
+                "{narrower_m}"
+            );
         });
         assert_eq!(asked.len(), 2);
     }

@@ -1,11 +1,12 @@
 //! How far a flap is pushed, and where it rests then.
 
-use super::boards::{are_opposite, met, overlap_closed, propped_rad, stopped_by_box, stopped_by_rims};
+use super::boards::{are_opposite, met, overlap_closed, propped_rad, Descent};
 use super::closing::Closer;
 use super::flap::Standing;
 use super::guard::{Guard, Moment};
 use super::push::PushMotion;
 use super::reason::Obstacle;
+use super::rims::{stopped_by_box, stopped_by_rims};
 
 /// How far a flap that sprang up is pressed down again, between where it was held, where it lies on boards itself, and where its crease
 /// alone would let it go: chosen by what stacks of flaps do in physics.
@@ -80,7 +81,7 @@ impl<G: Guard> Closer<'_, G> {
     /// Does another flap that stands open meet this one on its way?
     fn is_in_the_way(&self, flap: usize, moment: &Moment) -> bool {
         let flaps = &self.problem.flaps;
-        let is_met = |k: usize| match met(self.problem, &moment.angles_rad, k, 0.0, self.settings) {
+        let is_met = |k: usize| match met(self.problem, &moment.angles_rad, k, 0.0, Descent::Steep, self.settings) {
             Some(Obstacle::Boards { other, .. }) => flaps[flap].is_own(&other),
             _ => false,
         };

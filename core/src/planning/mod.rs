@@ -1,7 +1,7 @@
 //! How an arm closes a box: which flaps in which order, pushed how, and why not.
 //!
 //! Geometry of flaps and fingers (`flap`, `touch`, `contact`), the layered search of one push (`layers`, `push`), the ways to it and
-//! between flaps (`line`, `transit`), the order (`boards`, `order`, `closing`), times (`timing`); beside them the planner of 2011 (`planes`)
+//! between flaps (`line`, `transit`), the order (`boards`, `ends`, `rims`, `order`, `closing`), times (`timing`); beside them the planner of 2011 (`planes`)
 //! and brute force (`exhaustive`), which tables hold the planner against. Metres, radians, the robot's base frame.
 
 mod answer;
@@ -11,6 +11,7 @@ mod boards;
 mod closing;
 mod contact;
 mod effort;
+mod ends;
 mod exhaustive;
 mod first_layer;
 mod flap;
@@ -32,6 +33,9 @@ mod pushes;
 mod reached;
 mod reason;
 mod request;
+mod rims;
+#[cfg(test)]
+mod sample_box;
 mod searches;
 mod settings;
 mod stages;

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::boards::Descent;
 use super::closing::Closer;
 use super::effort::Effort;
 use super::guard::{Guard, Moment};
@@ -14,29 +15,52 @@ pub struct Ordered {
     pub order: Vec<usize>,
     pub pushes: Vec<PushMotion>,
     pub why_not: Vec<(usize, WhyNot)>,
+    /// Whether a flap waited anywhere that could have come down steeply.
+    has_waited: bool,
 }
 
-/// The order that closes most with the first effort; where that is not all, with a greater one, and then with the greatest for what is left.
+/// The order that closes most with the first effort; where that is not all, with a greater one, and then with the greatest for what is
+/// left. One with steep descents on the way only where it closes more.
 pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
-    let quick = with_effort(closer, open, angles_rad, Effort::Quick);
+    let quick = with_effort(closer, open, angles_rad, Effort::Quick, Descent::Gentle);
     if quick.why_not.is_empty() || closer.quick {
         return quick;
     }
-    let mut ordered = with_effort(closer, open, angles_rad, Effort::Thorough);
-    add_left(closer, &mut ordered, angles_rad);
-    ordered
+    let thorough = |descent: Descent| {
+        let mut ordered = with_effort(closer, open, angles_rad, Effort::Thorough, descent);
+        add_left(closer, &mut ordered, angles_rad);
+        ordered
+    };
+    let gentle = thorough(Descent::Gentle);
+    if gentle.why_not.is_empty() || !gentle.has_waited {
+        return gentle;
+    }
+    let steep = thorough(Descent::Steep);
+    if steep.order.len() > gentle.order.len() {
+        steep
+    } else {
+        gentle
+    }
 }
 
 /// Depth first over orders, the likeliest first, each push planned once for each set of flaps closed before it. The first order that
 /// closes all ends the search; else the first of those that close most.
-fn with_effort<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64], effort: Effort) -> Ordered {
+fn with_effort<G: Guard>(
+    closer: &Closer<'_, G>,
+    open: &[usize],
+    angles_rad: &[f64],
+    effort: Effort,
+    descent: Descent,
+) -> Ordered {
     let mut search = Search {
         closer,
         effort,
+        descent,
         known: HashMap::new(),
         best: Vec::new(),
         wanted: open.len(),
         hopeless: Vec::new(),
+        has_waited: false,
         searches: vec![0; angles_rad.len()],
     };
     let ranked = likeliest_first(closer, open);
@@ -50,7 +74,7 @@ fn with_effort<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f
     }
     let left = ranked.iter().filter(|flap| !best.contains(flap));
     let why_not = left.filter_map(|&flap| Some((flap, search.why_not(flap, &best)?))).collect();
-    Ordered { order: best, pushes, why_not }
+    Ordered { order: best, pushes, why_not, has_waited: search.has_waited }
 }
 
 /// Adds what the greatest effort closes; puts last what may move the box, so that no other flap is missed for it; after each what only
@@ -61,8 +85,10 @@ fn add_left<G: Guard>(closer: &Closer<'_, G>, ordered: &mut Ordered, angles_rad:
         angles_rad[flap] = closer.rest_rad(flap, push);
     }
     let mut asked = Vec::new();
-    while let Some((place, push)) =
-        ordered.first_deep(closer, &angles_rad, &mut asked).or_else(|| ordered.first_sliding(closer, &angles_rad))
+    while let Some((place, push)) = ordered
+        .first_deep(closer, &angles_rad, &mut asked)
+        .or_else(|| ordered.first_steep(closer, &angles_rad))
+        .or_else(|| ordered.first_sliding(closer, &angles_rad))
     {
         ordered.add(closer, place, push, &mut angles_rad);
         while let Some((place, push)) = ordered.first_freed(closer, &angles_rad) {
@@ -85,8 +111,22 @@ impl Ordered {
                 return None;
             }
             asked.push(flap);
-            Some((place, closer.push(flap, &moment, Effort::Deep).ok()?))
+            Some((place, closer.push(flap, &moment, Effort::Deep, Descent::Gentle).ok()?))
         })
+    }
+
+    /// Of the flaps left, where the first is that closes if it may come down steeply, and its push; of those before it, what else keeps
+    /// them open.
+    fn first_steep<G: Guard>(&mut self, closer: &Closer<'_, G>, angles_rad: &[f64]) -> Option<(usize, PushMotion)> {
+        let moment = Moment::resting(angles_rad);
+        let waiting = self.why_not.iter_mut().enumerate().filter(|(_, (_, why))| why.is_steep);
+        for (place, (flap, why)) in waiting {
+            match closer.push(*flap, &moment, Effort::Thorough, Descent::Steep) {
+                Ok(push) => return Some((place, push)),
+                Err(other) => *why = WhyNot { is_steep: true, ..other },
+            }
+        }
+        None
     }
 
     /// Of the flaps left, where the first is that closes if the box may move, and its push.
@@ -100,7 +140,9 @@ impl Ordered {
     fn first_freed<G: Guard>(&self, closer: &Closer<'_, G>, angles_rad: &[f64]) -> Option<(usize, PushMotion)> {
         let moment = Moment::resting(angles_rad);
         let mut kept = self.why_not.iter().enumerate().filter(|(_, (_, why))| why.by_flaps);
-        kept.find_map(|(place, &(flap, _))| Some((place, closer.push(flap, &moment, Effort::Thorough).ok()?)))
+        kept.find_map(|(place, &(flap, _))| {
+            Some((place, closer.push(flap, &moment, Effort::Thorough, Descent::Gentle).ok()?))
+        })
     }
 
     fn add<G: Guard>(&mut self, closer: &Closer<'_, G>, place: usize, push: PushMotion, angles_rad: &mut [f64]) {
@@ -117,9 +159,9 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
     let area = |flap: usize| closer.problem.flaps[flap].area_m2();
     ranked.sort_by(|&a, &b| area(a).total_cmp(&area(b)).then(a.cmp(&b)));
     let mut angles_rad = angles_rad.to_vec();
-    let mut found = Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new() };
+    let mut found = Ordered { order: Vec::new(), pushes: Vec::new(), why_not: Vec::new(), has_waited: false };
     for flap in ranked {
-        match closer.push(flap, &Moment::resting(&angles_rad), Effort::Quick) {
+        match closer.push(flap, &Moment::resting(&angles_rad), Effort::Quick, Descent::Steep) {
             Ok(push) => {
                 angles_rad[flap] = closer.rest_rad(flap, &push);
                 found.order.push(flap);
@@ -149,11 +191,13 @@ fn likeliest_first<G: Guard>(closer: &Closer<'_, G>, open: &[usize]) -> Vec<usiz
 struct Search<'a, 'b, G: Guard> {
     closer: &'a Closer<'b, G>,
     effort: Effort,
+    descent: Descent,
     known: HashMap<(usize, u32), Tried>,
     best: Vec<usize>,
     wanted: usize,
     /// Flaps that nothing but themselves, the arm and what stands still keeps open, and why.
     hopeless: Vec<(usize, WhyNot)>,
+    has_waited: bool,
     /// For each flap, in the problem's order: how many searches of the arm's ways found none.
     searches: Vec<usize>,
 }
@@ -209,8 +253,9 @@ impl<G: Guard> Search<'_, '_, G> {
         }
         let key = (flap, closed_set(before));
         if !self.known.contains_key(&key) {
-            let tried = self.closer.push(flap, &Moment::resting(angles_rad), self.effort);
+            let tried = self.closer.push(flap, &Moment::resting(angles_rad), self.effort, self.descent);
             if let Err(why) = &tried {
+                self.has_waited |= why.is_steep;
                 self.searches[flap] += usize::from(why.searched);
                 if !why.by_flaps || self.searches[flap] >= MOST_SEARCHES {
                     self.hopeless.push((flap, why.clone()));

@@ -207,7 +207,16 @@ impl<G: Guard> Pusher<'_, G> {
         // Where the arm is caught, ends of other pushes lie no more open, and to find that out takes long.
         let is_caught = tally.any(|obstacle| *obstacle == CAUGHT);
         let at_rad = (!at_start && !is_caught).then_some(angle_rad);
-        WhyNot { status, reason: format!("{place}: {obstacle}"), by_flaps, at_start, at_rad, moves_box, searched: true }
+        WhyNot {
+            status,
+            reason: format!("{place}: {obstacle}"),
+            by_flaps,
+            is_steep: false,
+            at_start,
+            at_rad,
+            moves_box,
+            searched: true,
+        }
     }
 }
 

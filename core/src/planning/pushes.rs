@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::boards::met;
+use super::boards::{met, Descent};
 use super::closing::Closer;
 use super::contact::Contacts;
 use super::effort::{Effort, USUAL};
@@ -23,7 +23,11 @@ impl<G: Guard> Closer<'_, G> {
     ///
     /// # Errors
     /// The status and the reason why there is none.
-    pub fn push(&self, flap: usize, moment: &Moment, effort: Effort) -> Tried {
+    pub fn push(&self, flap: usize, moment: &Moment, effort: Effort, descent: Descent) -> Tried {
+        if let Some(obstacle) = self.meets(flap, moment, descent).filter(|_| self.method == Method::Layered) {
+            let is_steep = self.meets(flap, moment, Descent::Steep).is_none();
+            return Err(WhyNot { is_steep, ..WhyNot::by_boards(&obstacle) });
+        }
         let mut tried = Err(WhyNot::not_searched());
         for effort in effort.up_to() {
             let plan = || self.push_anew(flap, moment, effort);
@@ -132,7 +136,8 @@ impl<G: Guard> Closer<'_, G> {
     pub fn push_home(&self, flap: usize, moment: &Moment) -> Option<PushMotion> {
         let hold_rad = self.hold_rad(flap, moment);
         let is_low = moment.angles_rad[flap] <= self.settings.slides_home_rad;
-        if self.kept_open(flap, moment, hold_rad).is_some() || !(is_low || self.load.is_bearable(self.problem, flap)) {
+        let is_kept = || self.meets(flap, moment, Descent::Steep).or_else(|| self.kept_open(flap, moment, hold_rad));
+        if is_kept().is_some() || !(is_low || self.load.is_bearable(self.problem, flap)) {
             return None;
         }
         let most_strain = if is_low { f64::INFINITY } else { 1.0 };
@@ -140,16 +145,20 @@ impl<G: Guard> Closer<'_, G> {
         self.margins.push(flap, moment, Force::Home, plan).ok()
     }
 
-    /// The boards that keep a flap open, whatever the arm does.
+    /// The board that a flap meets on its way, whatever the arm does.
+    fn meets(&self, flap: usize, moment: &Moment, descent: Descent) -> Option<Obstacle> {
+        let to_rad = self.hold_rad(flap, moment).max(0.0);
+        met(self.problem, &moment.angles_rad, flap, to_rad, descent, self.settings)
+    }
+
+    /// What keeps a flap from resting closed, whatever the arm does.
     fn kept_open(&self, flap: usize, moment: &Moment, hold_rad: f64) -> Option<Obstacle> {
-        met(self.problem, &moment.angles_rad, flap, hold_rad.max(0.0), self.settings).or_else(|| {
-            if self.falls_in(flap, moment) {
-                return Some(Obstacle::Falls { flap: self.problem.flaps[flap].name.clone() });
-            }
-            let (settings, rest_rad) = (self.settings, self.load.folds[flap].rest_rad(hold_rad));
-            let is_propped = hold_rad > settings.most_propped_rad || rest_rad > settings.most_propped_rest_rad;
-            is_propped.then(|| Obstacle::Propped { flap: self.problem.flaps[flap].name.clone() })
-        })
+        if self.falls_in(flap, moment) {
+            return Some(Obstacle::Falls { flap: self.problem.flaps[flap].name.clone() });
+        }
+        let (settings, rest_rad) = (self.settings, self.load.folds[flap].rest_rad(hold_rad));
+        let is_propped = hold_rad > settings.most_propped_rad || rest_rad > settings.most_propped_rest_rad;
+        is_propped.then(|| Obstacle::Propped { flap: self.problem.flaps[flap].name.clone() })
     }
 
     /// The arm's own base, where it stands in a flap's way.

@@ -128,6 +128,8 @@ pub struct WhyNot {
     pub reason: String,
     /// Whether other flaps had a part in it: then it may be otherwise once they have moved.
     pub by_flaps: bool,
+    /// Whether the flap meets another's end less steeply than boards jam.
+    pub is_steep: bool,
     /// Whether the arm cannot even begin.
     pub at_start: bool,
     /// Where a push that begins ends on its way, rad.
@@ -146,6 +148,7 @@ impl WhyNot {
             status: Status::Blocked,
             reason,
             by_flaps: false,
+            is_steep: false,
             at_start: true,
             at_rad: None,
             moves_box: true,
@@ -159,6 +162,7 @@ impl WhyNot {
             status: Status::OutOfTime,
             reason: "no search was allowed".into(),
             by_flaps: false,
+            is_steep: false,
             at_start: false,
             at_rad: None,
             moves_box: false,
@@ -173,6 +177,7 @@ impl WhyNot {
             status: Status::Blocked,
             reason,
             by_flaps: true,
+            is_steep: false,
             at_start: false,
             at_rad: None,
             moves_box: false,

@@ -99,8 +99,8 @@ def _add_board(
     world_from_board = board_frame(board)
     here = inverse(parent_frame) @ world_from_board
     body = parent.add_body(name=prefix + board.name, pos=here[:3, 3], quat=_quat(here))
-    # A racked base is no stair: four corners are what it stands on.
-    slabs = slabs_of(board.corners, box.thickness_m, _trim(board, box), stair=board.name != "base")
+    # A racked base is one rectangle: four corners are what it stands on.
+    slabs = slabs_of(board.corners, box.thickness_m, _trim(board, box), taper=board.name != "base")
     total_m2 = sum(4.0 * slab.half_m[0] * slab.half_m[1] for slab in slabs)
     for slab in slabs:
         share = 4.0 * slab.half_m[0] * slab.half_m[1] / total_m2
@@ -139,7 +139,7 @@ def _add_slab(
 ) -> None:
     body.add_geom(
         type=mujoco.mjtGeom.mjGEOM_BOX,
-        pos=apply(inverse(world_from_board), slab.centre),
+        **_place(world_from_board, slab),
         size=slab.half_m,
         mass=mass_kg,
         rgba=rgba,
@@ -152,13 +152,21 @@ def _add_sheet(body: mujoco.MjsBody, board: Board, sheet: Sheet, settings: Physi
     body.add_geom(
         name=f"{prefix}{board.name}_{sheet.name}",
         type=mujoco.mjtGeom.mjGEOM_BOX,
-        pos=apply(inverse(board_frame(board)), sheet.slab.centre),
+        **_place(board_frame(board), sheet.slab),
         size=sheet.slab.half_m,
         mass=0.0,
         group=HIDDEN_GROUP,
         **sheet.touches.as_geom(),
         **contact_of(settings, settings.sheet_friction),
     )
+
+
+def _place(world_from_board: Array, slab: Slab) -> dict[str, Array]:
+    """Where a slab is in its board's frame, as a geom's attributes."""
+    world_from_slab = np.eye(4)
+    world_from_slab[:3, :3], world_from_slab[:3, 3] = slab.axes, slab.centre
+    board_from_slab = inverse(world_from_board) @ world_from_slab
+    return {"pos": board_from_slab[:3, 3], "quat": _quat(board_from_slab)}
 
 
 def contact_of(settings: PhysicsSettings, friction: float) -> dict[str, object]:
