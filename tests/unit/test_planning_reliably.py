@@ -25,7 +25,7 @@ OVER_OTHERS = (1142, 228, "flap_1")
 """A flap over others so short that fingers on it, closed, would be too near to them."""
 ON_STACKS = {(2013, 0): "flap_2"}
 """A flap that comes to lie on others that overlap, and springs back beyond what counts as closed by itself."""
-IN_TWO = (2011, 31, "flap_1")
+IN_TWO = (2011, 125, "flap_1")
 """A flap that no push from the start takes to closed and beyond."""
 
 SQUARELY = ((1133, 58, "ordinary"), (1133, 66, "pre_broken"))
@@ -36,7 +36,7 @@ PRESSED_DOWN = (1133, 7)
 """Four long flaps of which each lies on others that spring up; those near its hinge are pressed down easily."""
 ON_RIMS = (1135, 8)
 """Four flaps; two lie on one another and on the rims: the others come to lie on their corners, and no press helps."""
-SPRINGS_UP = (1135, 67, "flap_1")
+SPRINGS_UP = (1144, 1, "flap_0")
 """A flap that those across from one another prop up so far that its crease lifts it off them."""
 LEFT = (1142, 44, "flap_2")
 """A flap that after all others the last searches find how to push."""
@@ -44,6 +44,8 @@ BY_THE_TIP = (1134, 68, "flap_3")
 """One that is held with the very tip alone, or near its hinge."""
 JAMMING = ((1142, 218), (1141, 110))
 """Boxes out of square: a flap came down steeply on the free edge of one that sprang up, and the arm dragged them."""
+GOES_WRONG = (1144, 264, "flap_2")
+"""A light box that the couple on one flap drags: closed first it stops the arm, and two more flaps stay open."""
 STEEPLY = (1144, 194, ("flap_0", "flap_2", "flap_3"))
 """A box and the order that presses no end down steeply: the other drags it by 292 mm."""
 ON_A_LID = (1142, 70, ("flap_1", "flap_3"))
@@ -134,9 +136,7 @@ def test_a_flap_is_held_with_the_very_tip_where_nothing_else_reaches_it() -> Non
 def test_a_second_push_closes_what_the_first_leaves_half_way() -> None:
     seed, number, name = IN_TWO
     plan = _plan(seed, number, "pre_broken")
-    rests_rad = [made.flaps[name].rest_rad for made in (plan, _plan(seed, number, "pre_broken", AT_ONE_GO))]
-    assert (rests_rad[0] or 0.0) < np.radians(5.0)
-    assert (rests_rad[1] or 0.0) > np.radians(10.0)
+    assert _plan(seed, number, "pre_broken", AT_ONE_GO).flaps[name].status == "blocked"
     pushes = [segment for segment in plan.segments if segment.kind == "push" and segment.flap == name]
     assert [segment.gripper_opening_m for segment in pushes] == [0.0, 0.0]
     assert _keeps_clear(seed, number, plan)
@@ -237,6 +237,16 @@ def test_flaps_that_would_press_an_end_down_steeply_go_before_it_springs_up() ->
     assert plan.order == order
     assert all(run.flaps[name].held for name in order)
     assert run.box_slid_m < 0.005
+
+
+def test_what_takes_a_couple_comes_after_what_does_not() -> None:
+    seed, number, name = GOES_WRONG
+    plan = _plan(seed, number, "ordinary")
+    turned = [segment.flap for segment in plan.segments if segment.gripper_opening_m > 0.0 and segment.kind == "push"]
+    assert name in turned
+    assert plan.order[0] not in turned
+    assert len(plan.order) == 3
+    assert _all_held(seed, number, "ordinary", plan)
 
 
 def test_flaps_on_a_lid_are_pressed_a_little_further_where_they_come_to_rest_closed_for_it() -> None:

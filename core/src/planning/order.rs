@@ -19,15 +19,19 @@ pub struct Ordered {
     has_waited: bool,
 }
 
-/// The order that closes most with the first effort; where that is not all, with a greater one, and then with the greatest for what is
-/// left. One with steep descents on the way only where it closes more.
+/// The order that closes most with the first effort; where that is not all, with a greater one, what the first did not close last: it
+/// takes stages and couples, and where one of those goes wrong no flap after it is lost. Then what is left, with the greatest effort. An
+/// order with steep descents on the way only where it closes more.
 pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
-    let quick = with_effort(closer, open, angles_rad, Effort::Quick, Descent::Gentle);
+    let ranked = likeliest_first(closer, open, &[]);
+    let quick = with_effort(closer, &ranked, angles_rad, Effort::Quick, Descent::Gentle);
     if quick.why_not.is_empty() || closer.quick {
         return quick;
     }
+    let hard: Vec<usize> = quick.why_not.iter().map(|(flap, _)| *flap).collect();
+    let ranked = likeliest_first(closer, open, &hard);
     let thorough = |descent: Descent| {
-        let mut ordered = with_effort(closer, open, angles_rad, Effort::Thorough, descent);
+        let mut ordered = with_effort(closer, &ranked, angles_rad, Effort::Thorough, descent);
         add_left(closer, &mut ordered, angles_rad);
         ordered
     };
@@ -43,11 +47,11 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
     }
 }
 
-/// Depth first over orders, the likeliest first, each push planned once for each set of flaps closed before it. The first order that
+/// Depth first over orders, those that begin as ranked first, each push planned once for each set of flaps closed before it. The first order that
 /// closes all ends the search; else the first of those that close most.
 fn with_effort<G: Guard>(
     closer: &Closer<'_, G>,
-    open: &[usize],
+    ranked: &[usize],
     angles_rad: &[f64],
     effort: Effort,
     descent: Descent,
@@ -58,13 +62,12 @@ fn with_effort<G: Guard>(
         descent,
         known: HashMap::new(),
         best: Vec::new(),
-        wanted: open.len(),
+        wanted: ranked.len(),
         hopeless: Vec::new(),
         has_waited: false,
         searches: vec![0; angles_rad.len()],
     };
-    let ranked = likeliest_first(closer, open);
-    search.extend(&mut Vec::new(), &ranked, angles_rad);
+    search.extend(&mut Vec::new(), ranked, angles_rad);
     let best = search.best.clone();
     let mut pushes = Vec::new();
     for k in 0..best.len() {
@@ -173,13 +176,13 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
     found
 }
 
-/// What goes under goes first: short hinges carry the minor flaps of a carton, short flaps lie under long ones, and what carries a
-/// tuck goes in last.
-fn likeliest_first<G: Guard>(closer: &Closer<'_, G>, open: &[usize]) -> Vec<usize> {
+/// What goes under goes first: short hinges carry the minor flaps of a carton, short flaps lie under long ones; the `hard` ones after
+/// all others, and what carries a tuck goes in last.
+fn likeliest_first<G: Guard>(closer: &Closer<'_, G>, open: &[usize], hard: &[usize]) -> Vec<usize> {
     let mut order = open.to_vec();
     let rank = |flap: usize| {
-        let flap = &closer.problem.flaps[flap];
-        (!flap.tucks.is_empty(), flap.area_m2())
+        let of = &closer.problem.flaps[flap];
+        ([!of.tucks.is_empty(), hard.contains(&flap)], of.area_m2())
     };
     order.sort_by(|&a, &b| {
         let (a_rank, b_rank) = (rank(a), rank(b));
