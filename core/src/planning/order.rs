@@ -47,8 +47,8 @@ pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f6
     }
 }
 
-/// Depth first over orders, those that begin as ranked first, each push planned once for each set of flaps closed before it. The first order that
-/// closes all ends the search; else the first of those that close most.
+/// Depth first over orders, as ranked, each push planned once for each set of flaps closed before it. The first order that closes all
+/// ends the search; else the first of those that close most.
 fn with_effort<G: Guard>(
     closer: &Closer<'_, G>,
     ranked: &[usize],

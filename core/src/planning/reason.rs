@@ -128,7 +128,7 @@ pub struct WhyNot {
     pub reason: String,
     /// Whether other flaps had a part in it: then it may be otherwise once they have moved.
     pub by_flaps: bool,
-    /// Whether the flap meets another's end less steeply than boards jam.
+    /// Whether nothing but a steep descent on another's end keeps it open, less steep than boards jam.
     pub is_steep: bool,
     /// Whether the arm cannot even begin.
     pub at_start: bool,
