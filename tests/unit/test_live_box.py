@@ -26,8 +26,6 @@ from boxwright.types import Cloud, Model
 ROBOT = "viper_s850"
 NUMBER = 4
 """A cake box of three flaps."""
-SEEN_AFTER = 6
-"""A small box that is still seen as one when its first flap is closed."""
 
 
 @pytest.fixture
@@ -75,8 +73,7 @@ def test_a_plan_on_another_numbering_closes_the_same_flap(problem: Problem) -> N
     assert tried == 4
 
 
-def test_looking_closes_flap_by_flap_on_models_of_its_own_frames() -> None:
-    problem = draw_problem(SEEN_AFTER)
+def test_looking_closes_flap_by_flap_on_models_of_its_own_frames(problem: Problem) -> None:
     base_from_input = camera_pose(problem)
     live = _live(problem, base_from_input)
 

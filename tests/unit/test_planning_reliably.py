@@ -239,7 +239,7 @@ def test_flaps_that_would_press_an_end_down_steeply_go_before_it_springs_up() ->
     assert run.box_slid_m < 0.005
 
 
-def test_what_takes_a_couple_comes_after_what_does_not() -> None:
+def test_what_takes_a_couple_comes_after_the_one_across_that_does_not() -> None:
     seed, number, name = GOES_WRONG
     plan = _plan(seed, number, "ordinary")
     turned = [segment.flap for segment in plan.segments if segment.gripper_opening_m > 0.0 and segment.kind == "push"]

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::boards::Descent;
+use super::boards::{are_opposite, Descent};
 use super::closing::Closer;
 use super::effort::Effort;
+use super::flap::Flap;
 use super::guard::{Guard, Moment};
 use super::known::Tried;
 use super::push::PushMotion;
@@ -19,9 +20,9 @@ pub struct Ordered {
     has_waited: bool,
 }
 
-/// The order that closes most with the first effort; where that is not all, with a greater one, what the first did not close last: it
-/// takes stages and couples, and where one of those goes wrong no flap after it is lost. Then what is left, with the greatest effort. An
-/// order with steep descents on the way only where it closes more.
+/// The order that closes most with the first effort; where that is not all, with a greater one, of a pair what the first did not close
+/// last: it takes stages and couples, and where one of those goes wrong the arm may stop. Then what is left, with the greatest effort.
+/// An order with steep descents on the way only where it closes more.
 pub fn search<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_rad: &[f64]) -> Ordered {
     let ranked = likeliest_first(closer, open, &[]);
     let quick = with_effort(closer, &ranked, angles_rad, Effort::Quick, Descent::Gentle);
@@ -176,17 +177,20 @@ pub fn ascending_area<G: Guard>(closer: &Closer<'_, G>, open: &[usize], angles_r
     found
 }
 
-/// What goes under goes first: short hinges carry the minor flaps of a carton, short flaps lie under long ones; the `hard` ones after
-/// all others, and what carries a tuck goes in last.
+/// What goes under goes first: short hinges carry the minor flaps of a carton, short flaps lie under long ones, and what carries a
+/// tuck goes in last. Of two across from one another the one that is `hard` goes last.
 fn likeliest_first<G: Guard>(closer: &Closer<'_, G>, open: &[usize], hard: &[usize]) -> Vec<usize> {
-    let mut order = open.to_vec();
-    let rank = |flap: usize| {
-        let of = &closer.problem.flaps[flap];
-        ([!of.tucks.is_empty(), hard.contains(&flap)], of.area_m2())
+    let flaps = &closer.problem.flaps;
+    let rank = |k: usize| {
+        let across = open.iter().map(|&other| &flaps[other]).filter(|other| are_opposite(&flaps[k], other));
+        let pair_m2 = across.map(Flap::area_m2).fold(flaps[k].area_m2(), f64::min);
+        (!flaps[k].tucks.is_empty(), pair_m2, hard.contains(&k), flaps[k].area_m2())
     };
+    let mut order = open.to_vec();
     order.sort_by(|&a, &b| {
-        let (a_rank, b_rank) = (rank(a), rank(b));
-        a_rank.0.cmp(&b_rank.0).then(a_rank.1.total_cmp(&b_rank.1)).then(a.cmp(&b))
+        let ((a_tuck, a_pair_m2, a_hard, a_m2), (b_tuck, b_pair_m2, b_hard, b_m2)) = (rank(a), rank(b));
+        let by_pair = a_tuck.cmp(&b_tuck).then(a_pair_m2.total_cmp(&b_pair_m2));
+        by_pair.then(a_hard.cmp(&b_hard)).then(a_m2.total_cmp(&b_m2)).then(a.cmp(&b))
     });
     order
 }
