@@ -36,7 +36,7 @@ PRESSED_DOWN = (1133, 7)
 """Four long flaps of which each lies on others that spring up; those near its hinge are pressed down easily."""
 ON_RIMS = (1135, 8)
 """Four flaps; two lie on one another and on the rims: the others come to lie on their corners, and no press helps."""
-SPRINGS_UP = (1144, 1, "flap_0")
+SPRINGS_UP = (1144, 151, "flap_1")
 """A flap that those across from one another prop up so far that its crease lifts it off them."""
 LEFT = (1142, 44, "flap_2")
 """A flap that after all others the last searches find how to push."""
@@ -48,6 +48,8 @@ GOES_WRONG = (1144, 264, "flap_2")
 """A light box that the couple on one flap drags: closed first it stops the arm, and two more flaps stay open."""
 STEEPLY = (1144, 194, ("flap_0", "flap_2", "flap_3"))
 """A box and the order that presses no end down steeply: the other drags it by 292 mm."""
+STEEPLY_AT_LAST = (1144, 38, "flap_1")
+"""One that presses an end down steeply whatever the order: before the others it drags the box by 17 mm."""
 ON_A_LID = (1142, 70, ("flap_1", "flap_3"))
 """Short flaps over the corners of a lid that lies lower than it is told."""
 ON_THE_BASE = (1142, 113, "flap_3")
@@ -215,7 +217,8 @@ def test_flaps_that_lie_on_the_rims_are_pressed_no_further_than_boards_let_them(
 def test_a_flap_that_would_spring_up_off_those_it_lies_on_is_left_open() -> None:
     seed, number, name = SPRINGS_UP
     plan = _plan(seed, number, "ordinary")
-    assert (plan.flaps[name].status, len(plan.order)) == ("blocked", 3)
+    assert (plan.flaps[name].status, len(plan.order)) == ("blocked", 2)
+    assert _plan(seed, number, "pre_broken").flaps[name].status == "planned"
     assert "come to lie on the ends of flaps that overlap" in (plan.flaps[name].reason or "")
     assert _all_held(seed, number, "ordinary", plan)
 
@@ -236,6 +239,15 @@ def test_flaps_that_would_press_an_end_down_steeply_go_before_it_springs_up() ->
     run = simulate(plan, draw_problem(number, seed).model, crease="ordinary").simulation
     assert plan.order == order
     assert all(run.flaps[name].held for name in order)
+    assert run.box_slid_m < 0.005
+
+
+def test_a_flap_that_presses_an_end_down_steeply_whatever_the_order_comes_last() -> None:
+    seed, number, name = STEEPLY_AT_LAST
+    plan = _plan(seed, number, "ordinary")
+    assert (len(plan.order), plan.order[-1]) == (3, name)
+    run = simulate(plan, draw_problem(number, seed).model, crease="ordinary").simulation
+    assert all(run.flaps[held].held for held in plan.order)
     assert run.box_slid_m < 0.005
 
 

@@ -128,7 +128,7 @@ pub struct WhyNot {
     pub reason: String,
     /// Whether other flaps had a part in it: then it may be otherwise once they have moved.
     pub by_flaps: bool,
-    /// Whether nothing but a steep descent on another's end keeps it open, less steep than boards jam.
+    /// Whether it waits where it could come down on another's end, steeply but not so that boards jam.
     pub is_steep: bool,
     /// Whether the arm cannot even begin.
     pub at_start: bool,

@@ -14,6 +14,7 @@ Array = NDArray[np.float64]
 
 STEP_M = 0.012
 MOST_STEPS = 3
+"""A stair has a step for so much of the taper, and so many at the most."""
 EVEN_M = 0.0005
 """Edges that taper by less than this are taken as parallel."""
 
