@@ -153,7 +153,8 @@ evaluate: setup ## Evaluate on simulated frames that no training saw (240 and 12
 		$(BIN)/boxwright evaluate $(SETS)/boxes --method $$method -o out/boxes_$$method.json; \
 		$(BIN)/boxwright evaluate $(SETS)/no_boxes --method $$method -o out/no_boxes_$$method.json; \
 	done
-	$(BIN)/python -m benchmarks.gallery $(SETS)/boxes out/boxes_fitted.json -o docs/results/gallery
+	$(BIN)/python -m benchmarks.gallery $(SETS)/boxes out/boxes_fitted.json -o docs/results/gallery \
+		--without $(SETS)/no_boxes out/no_boxes_fitted.json
 	$(BIN)/python -m benchmarks.coverage $(SETS)/boxes -o docs/results/coverage.md
 	$(BIN)/boxwright synth $(SETS)/test --count 120 --seed 1000
 	$(BIN)/boxwright synth $(SETS)/test_none --count 60 --seed 1003 --category none
