@@ -24,7 +24,8 @@ CameraPoseOption = Annotated[
     typer.Option(
         "--camera-pose",
         metavar="POSE.json",
-        help="base_from_input: where the input's frame stands before the robot: position (m), orientation (x y z w).",
+        help="base_from_input: where the input's frame stands before the robot, whose z is up: "
+        "position (m), orientation (x y z w).",
         rich_help_panel=PLANNING,
     ),
 ]
@@ -40,7 +41,7 @@ SceneOption = Annotated[
     typer.Option(
         "--scene",
         metavar="OBSTACLES.urdf",
-        help="What else stands around, in the robot's base frame: boxes, cylinders and spheres.",
+        help="What else stands around, in the robot's base frame: <collision> boxes, cylinders and spheres.",
         rich_help_panel=PLANNING,
     ),
 ]
