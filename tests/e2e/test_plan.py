@@ -71,7 +71,7 @@ def test_a_flap_that_stays_open_gives_three_and_says_why(model_dir: Path) -> Non
 
 REFUSED = [
     ("unknown robot", ("--robot", "robby"), {}, 1, "viper_s850"),
-    ("out of reach", ("--robot", "viper_s850"), {"position": [5.0, 0.0, 0.0]}, 1, "out of any reach"),
+    ("out of reach", ("--robot", "viper_s850"), {"position": [5.0, 0.0, 0.0]}, 1, "out of reach"),
     ("below the floor", ("--robot", "viper_s850"), {"orientation": [1.0, 0.0, 0.0, 0.0]}, 1, "below the floor"),
     ("base inside the box", ("--robot", "viper_s850"), {"position": [-0.48, 0.33, 0.08]}, 1, "stands inside"),
     ("no unit quaternion", ("--robot", "viper_s850"), {"orientation": [0, 0, 0, 2]}, 1, "pose.json: "),

@@ -8,6 +8,7 @@ from os import PathLike
 
 from boxwright.io.decoding import load_json, save_json
 from boxwright.types import Plan, Pose
+from boxwright.types.posed import FARTHEST_M
 
 Sample = tuple[float, tuple[float, ...]]
 
@@ -28,9 +29,16 @@ def save_plan(plan: Plan, path: str | PathLike[str]) -> None:
 def load_pose(path: str | PathLike[str]) -> Pose:
     """Read a pose: {"position" (m), "orientation" (x, y, z, w)}; as `--camera-pose` it is base_from_input.
 
-    Raises OSError when the file cannot be read, ValueError naming file and key when it holds no pose.
+    Raises OSError when the file cannot be read, ValueError naming file and key when it holds no pose, or one that is
+    farther off than any robot stands: told in millimetres.
     """
-    return load_json(path, Pose)
+    pose = load_json(path, Pose)
+    far = [value for value in pose.position if abs(value) > FARTHEST_M]
+    if far:
+        raise ValueError(
+            f"{path}: position: holds {far[0]:.4g}; it is in metres, not millimetres: {FARTHEST_M:.0f} at the most"
+        )
+    return pose
 
 
 def save_pose(pose: Pose, path: str | PathLike[str]) -> None:

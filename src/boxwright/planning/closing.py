@@ -12,8 +12,10 @@ import numpy as np
 
 from boxwright.kinematics.transforms import Matrix, from_pose
 from boxwright.planning.asking import ask
-from boxwright.planning.checks import refuse_poses, warnings_of
+from boxwright.planning.checks import refuse_far_base, refuse_poses, warnings_of
 from boxwright.planning.measured import measured_box
+from boxwright.planning.reach import refuse_out_of_reach, refuse_ready
+from boxwright.robots import load_robot
 from boxwright.types import Model, Plan, Pose
 
 METHODS = ("layered", "paper")
@@ -50,8 +52,13 @@ def plan_closing(
     if method not in METHODS:
         raise ValueError(f"method is {method!r}; known are {', '.join(METHODS)}")
     transform = from_pose(base_from_input) if isinstance(base_from_input, Pose) else np.asarray(base_from_input, float)
+    refuse_far_base(transform)
+    arm = load_robot(robot)
+    refuse_ready(arm, str(robot))
     box = measured_box(model, object_index, transform)
-    refuse_poses(model, model.objects[object_index], transform)
+    chosen = model.objects[object_index]
+    refuse_poses(model, chosen, transform)
+    refuse_out_of_reach(arm, chosen, transform)
     answer = ask(robot, box, settings, scene=scene, method=method, only=only, closed=closed)
     fields = {
         "format": "boxwright.plan",
@@ -64,7 +71,7 @@ def plan_closing(
         "segments": answer["segments"],
         "method": method,
         "object": object_index,
-        "warnings": warnings_of(model, transform),
+        "warnings": warnings_of(model, chosen, transform),
         "seconds": time.perf_counter() - started,
     }
     return msgspec.convert(fields, Plan)

@@ -14,7 +14,8 @@ from boxwright.kinematics.transforms import Matrix, from_pose, inverse, rigid, t
 from boxwright.planning.asking import ask, ask_bearable
 from boxwright.planning.checks import refuse_poses
 from boxwright.planning.measured import measured_box
-from boxwright.robots import robot_file
+from boxwright.planning.reach import refuse_ready
+from boxwright.robots import load_robot
 from boxwright.types import Model, Plan, Pose, SmallestMove
 
 DISTANCES_M = (0.52, 0.60, 0.45, 0.68)
@@ -53,7 +54,7 @@ def place_robot(
         raise ValueError(f"object {object_index} is not in the model; {had}")
     if model.objects[object_index].pose is None:
         raise ValueError(f"object {object_index} has no pose: too little of it was seen to put a robot before it")
-    robot_file(robot)
+    refuse_ready(load_robot(robot), str(robot))
     tried, closes_all = _tried_quickly(model, robot, object_index, settings)
     if not tried:
         raise ValueError(f"object {object_index}: no place of the list suits robot {str(robot)!r}; give --camera-pose")
