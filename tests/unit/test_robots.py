@@ -144,6 +144,24 @@ def test_a_file_that_does_not_fit_is_refused(tmp_path: Path) -> None:
     assert len(cases) == 4
 
 
+@pytest.mark.parametrize(
+    ("right", "wrong", "told"),
+    [
+        ("radius_m = 0.105", "radius_m = nan", "link[1].capsules[0].radius_m is nan; it must be a finite number"),
+        ("speed_deg_per_s = 250.0", "speed_deg_per_s = nan", "joint[0].speed_deg_per_s is nan"),
+        ("limits_deg = [-170.0, 170.0]", "limits_deg = [-inf, 170.0]", "joint[0].limits_deg[0] is -inf"),
+    ],
+)
+def test_a_number_that_is_none_is_told_by_file_and_key(right: str, wrong: str, told: str, tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(robot_text("viper_s850").replace(right, wrong, 1), encoding="utf-8")
+    assert told in refusal(path)
+    assert refusal(path).startswith(f"{path}: ")
+    with pytest.raises(ValueError, match="finite number") as caught:
+        robot_file(path)
+    assert str(caught.value) == refusal(path)
+
+
 def test_poses_and_positions_of_a_wrong_shape_are_refused() -> None:
     robot = load_robot("viper_s850")
     with pytest.raises(ValueError, match="there are 5 positions; viper_s850 has 6 joints"):

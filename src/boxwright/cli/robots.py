@@ -14,7 +14,12 @@ def robots(
     robot: Annotated[
         str | None, typer.Argument(metavar="[ROBOT]", help="A name, or one's own .toml or .urdf file; all by default.")
     ] = None,
-    urdf: Annotated[Path | None, typer.Option("--urdf", metavar="FILE", help="Write the robot as URDF.")] = None,
+    urdf: Annotated[
+        Path | None,
+        typer.Option(
+            "--urdf", metavar="FILE", help="Write the robot as URDF, complete: --robot FILE.urdf plans as it does."
+        ),
+    ] = None,
     mjcf: Annotated[
         Path | None, typer.Option("--mjcf", metavar="FILE", help="Write the robot as MJCF, as physics drives it.")
     ] = None,
@@ -24,6 +29,8 @@ def robots(
     as_json: JsonOption = False,
 ) -> None:
     """List the known robots, or say what one is: axes, reach, limits, payload, sources and guesses.
+
+    What a .urdf does not tell (accelerations, gripper, links that may touch, where the arm waits) is guessed and said.
 
     [bold]Examples[/]
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import tomllib
+from functools import lru_cache
 from os import PathLike
 from pathlib import Path
 
 import msgspec
 
+from boxwright.robots.finite import require_finite_numbers
 from boxwright.robots.robot_toml import toml_text
 from boxwright.robots.urdf_read import robot_of_urdf
 from boxwright.types import RobotFile
@@ -29,7 +31,7 @@ def robot_text(robot: str | PathLike[str]) -> str:
     path = Path(robot)
     if path.suffix == URDF_SUFFIX:
         try:
-            return toml_text(robot_of_urdf(_read_text(path), path.stem))
+            return _text_of_urdf(_read_text(path), path.stem)
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
     if path.suffix == ".toml":
@@ -42,10 +44,19 @@ def robot_text(robot: str | PathLike[str]) -> str:
 
 def robot_file(robot: str | PathLike[str]) -> RobotFile:
     """A robot's file as a record. Raises as `robot_text` does, and ValueError naming a key that does not fit."""
+    text = robot_text(robot)
     try:
-        return msgspec.convert(tomllib.loads(robot_text(robot)), RobotFile)
-    except (msgspec.ValidationError, tomllib.TOMLDecodeError) as error:
+        file = msgspec.convert(tomllib.loads(text), RobotFile)
+        require_finite_numbers(file)
+    except ValueError as error:
         raise ValueError(f"{robot}: {error}") from None
+    return file
+
+
+@lru_cache(maxsize=8)
+def _text_of_urdf(urdf: str, name: str) -> str:
+    """What a URDF does not tell takes a while to find, and one plan asks for its robot many times."""
+    return toml_text(robot_of_urdf(urdf, name))
 
 
 def _read_text(path: Path) -> str:

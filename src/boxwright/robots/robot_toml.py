@@ -7,14 +7,14 @@ from typing import Any
 
 import msgspec
 
-from boxwright.types import RobotFile
+from boxwright.types import BeyondUrdf, RobotFile
 
 _LISTED = ("joint", "link")
 """Tables that come several times."""
 
 
-def toml_text(robot: RobotFile) -> str:
-    """The TOML that reads back as this record."""
+def toml_text(robot: RobotFile | BeyondUrdf) -> str:
+    """The TOML that reads back as this record, whose numbers are finite."""
     keys = {key: value for key, value in msgspec.to_builtins(robot).items() if value is not None}
     head = [_line(key, value) for key, value in keys.items() if not _is_table(key, value)]
     blocks = ["\n".join(head)]

@@ -71,6 +71,11 @@ def numbers(text: str, count: int, where: str) -> list[float]:
     return values
 
 
+def vector(values: list[float]) -> Vector:
+    """Three numbers of a list."""
+    return (values[0], values[1], values[2])
+
+
 def degrees(angles_rad: Vector) -> Vector:
     """Three angles in degrees."""
     return (math.degrees(angles_rad[0]), math.degrees(angles_rad[1]), math.degrees(angles_rad[2]))

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from boxwright.kinematics.transforms import rigid, roll_pitch_yaw
 from boxwright.robots.robot import Robot
+from boxwright.robots.urdf_beyond import beyond_element
 from boxwright.types import RobotCapsule, RobotLink
 
 Array = NDArray[np.float64]
@@ -33,7 +34,7 @@ def urdf_of_robot(robot: Robot) -> str:
     """A robot's URDF: metres, radians, kilograms. Joint positions mean what they mean in the robot's file.
 
     Links `flange` and `tool` are empty frames; `gripper`, `finger_left` and `finger_right` hang on the flange. A
-    capsule is a cylinder and two spheres.
+    capsule is a cylinder and two spheres. What URDF cannot tell stands in an element of our own (docs/robots.md).
     """
     root = ET.Element("robot", name=robot.name)
     root.append(ET.Comment(f" Made by boxwright. {robot.file.description}. Inertias are those of the shapes. "))
@@ -50,6 +51,7 @@ def urdf_of_robot(robot: Robot) -> str:
         root.append(element)
     _add_tool(root, robot)
     ET.indent(root)
+    root.append(beyond_element(robot.file))
     return '<?xml version="1.0"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
 
 

@@ -7,12 +7,23 @@ from boxwright.types.known_size import KnownSize, MatchedSize
 from boxwright.types.model import FrameSource, Inference, Model, Object, ScoreTerm, Seconds, Source, SupportPlane
 from boxwright.types.plan import FlapOutcome, FlapStatus, Plan, PlanSegment, SegmentKind, SmallestMove
 from boxwright.types.posed import PosedCloud, PosedFile
-from boxwright.types.robot import Gripper, Opw, Place, RobotBox, RobotCapsule, RobotFile, RobotJoint, RobotLink
+from boxwright.types.robot import (
+    BeyondUrdf,
+    Gripper,
+    Opw,
+    Place,
+    RobotBox,
+    RobotCapsule,
+    RobotFile,
+    RobotJoint,
+    RobotLink,
+)
 from boxwright.types.segments import Segment, Segmentation
 from boxwright.types.simulation import FlapVerdict, Simulation, Stop
 from boxwright.types.truth import Camera, TrueBox, TrueFace, TruePart, Truth
 
 __all__ = [
+    "BeyondUrdf",
     "Camera",
     "Cloud",
     "FlapOutcome",

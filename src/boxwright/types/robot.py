@@ -97,3 +97,17 @@ class RobotFile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     joint: tuple[RobotJoint, ...]
     link: tuple[RobotLink, ...]
     gripper: Gripper
+
+
+class BeyondUrdf(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
+    """What URDF cannot tell of a robot and our own element in it may; keys as `RobotFile`'s, None where not told."""
+
+    ready_deg: tuple[float, ...] | None = None
+    accelerations_deg_per_s2: tuple[float, ...] | None = None
+    payload_kg: float | None = None
+    repeatability_m: float | None = None
+    sources: tuple[str, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    may_touch: tuple[tuple[str, str], ...] | None = None
+    opw: Opw | None = None
+    gripper: Gripper | None = None
