@@ -49,7 +49,7 @@ REFUSED = [
     ('<sphere radius="-0.1"/>', "link 'fence': sphere radius is '-0.1'; must be a finite number above 0, metres"),
     ('<cylinder radius="nan" length="1"/>', "link 'fence': cylinder radius is 'nan'; must be a finite number above 0"),
     ('<cylinder radius="0.1" length="-1"/>', "link 'fence': cylinder length is '-1'; must be a finite number above 0"),
-    ('<cylinder radius="0.1"/>', "lacks 'length'"),
+    ('<cylinder radius="0.1"/>', "link 'fence': cylinder length is ''; must be a finite number above 0"),
     ('<mesh filename="a.stl"/>', "link 'fence': its collision geometry is a mesh; give a box, cylinder or sphere"),
     ("", "link 'fence': its collision geometry is empty; give a box, cylinder or sphere"),
 ]

@@ -88,7 +88,7 @@ def _size(where: str, geometry: ElementTree.Element | None) -> list[float]:
     values = [
         value
         for key, count in LENGTHS[tag].items()
-        for value in _numbers(shape.attrib[key], count, f"{where}: {tag} {key}", above_0=True)
+        for value in _numbers(shape.attrib.get(key, ""), count, f"{where}: {tag} {key}", above_0=True)
     ]
     if tag == "box":
         return values
