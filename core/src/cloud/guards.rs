@@ -16,6 +16,12 @@ const NEAREST_M: f64 = 0.03;
 const SAMPLE: usize = 16384;
 /// Fewer readings than this have no extent worth a verdict.
 const FEWEST_FOR_EXTENT: usize = 16;
+/// Points that are so far after all, were they millimetres, may well be some: cameras of this class see nothing nearer.
+const NEAR_M: f64 = 0.2;
+/// How far a camera's image and its directions are alike: 1 of one that is seen whole, -1 of a mirrored one. Images with few readings,
+/// or all in a line, are in between and tell nothing.
+const MIRRORED: f64 = -0.5;
+const FEWEST_FOR_HANDEDNESS: usize = 64;
 
 /// Refuses the wrong unit and the wrong frame. Points and viewpoint are in metres by the unit that the user gave;
 /// `mend_too_far` helps when that puts them farther than any camera sees.
@@ -25,6 +31,7 @@ pub(super) fn check(cloud: &Cloud, options: &ReadOptions, in_camera_frame: bool,
     check_unit(&readings, cloud.viewpoint, options.unit, mend_too_far)?;
     if cloud.is_organized() && in_camera_frame {
         check_frame(&readings, options.frame)?;
+        check_handedness(cloud, options.frame)?;
     }
     Ok(())
 }
@@ -44,7 +51,12 @@ fn check_unit(readings: &[Vec3], viewpoint: Option<Vec3>, unit: Unit, mend_too_f
     };
     match (size_m, unit) {
         (Some(size), Unit::Metre) if size > FARTHEST_M => {
-            Err(wrong(format!("the readings' {what} is {size:.0} m, beyond any depth camera"), mend_too_far))
+            let mend = if size / 1000.0 < NEAR_M { NEITHER } else { mend_too_far };
+            Err(wrong(format!("the readings' {what} is {size:.0} m, beyond any depth camera"), mend))
+        }
+        (Some(size), Unit::Metre) if size < NEAREST_M && readings.len() >= FEWEST_FOR_EXTENT => {
+            let text = format!("the readings' {what} is {:.3} mm, nearer than any depth camera reads", size * 1e3);
+            Err(wrong(text, too_near_mend(mend_too_far)))
         }
         (Some(size), Unit::Millimetre) if size < NEAREST_M => {
             let text = format!("the readings' {what} is {:.2} mm, so they must be in metres", size * 1e3);
@@ -54,6 +66,18 @@ fn check_unit(readings: &[Vec3], viewpoint: Option<Vec3>, unit: Unit, mend_too_f
             Err(wrong(format!("the readings' {what} is {size:.0} m even in millimetres"), "write the points in metres"))
         }
         _ => Ok(()),
+    }
+}
+
+/// What helps where no unit that can be told fits.
+const NEITHER: &str = "they are in neither metres nor millimetres: write the points in metres";
+
+/// A depth image's unit may be too small as well as too large.
+fn too_near_mend(mend_too_far: &str) -> &str {
+    if mend_too_far.contains("depth_unit_m") {
+        mend_too_far
+    } else {
+        NEITHER
     }
 }
 
@@ -71,6 +95,47 @@ fn check_frame(readings: &[Vec3], frame: Frame) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Refuses the image of a mirrored scene, as of a cloud whose y alone was turned round: its boxes would be answered as if left were
+/// right. An image that is turned, however far, is none.
+fn check_handedness(cloud: &Cloud, frame: Frame) -> Result<()> {
+    let Some(alike) = handedness(cloud) else { return Ok(()) };
+    let (alike, forward) = match frame {
+        Frame::Optical => (alike, "z points forwards"),
+        Frame::OpenGl => (-alike, "z points backwards"),
+    };
+    if alike > MIRRORED {
+        return Ok(());
+    }
+    Err(wrong(
+        format!("the organized cloud is mirrored: {forward}, but x or y grows against its image's columns or rows"),
+        "turn the sign of that one round: in the optical frame x grows with the columns and y with the rows",
+    ))
+}
+
+/// Share in which columns and rows, and x / z and y / z, are alike as areas: the determinant of how they vary together, over what each
+/// varies by itself. `None` where too few readings tell.
+fn handedness(cloud: &Cloud) -> Option<f64> {
+    let step = cloud.points.len() / SAMPLE + 1;
+    let seen = |(i, p): (usize, &[f32; 3])| {
+        let [x, y, z] = p.map(f64::from);
+        let place = [(i % cloud.width) as f64, (i / cloud.width) as f64, x / z, y / z];
+        place.iter().all(|value| value.is_finite()).then_some(place)
+    };
+    let places: Vec<[f64; 4]> = cloud.points.iter().enumerate().step_by(step).filter_map(seen).collect();
+    if places.len() < FEWEST_FOR_HANDEDNESS {
+        return None;
+    }
+    let count = places.len() as f64;
+    let mean: [f64; 4] = std::array::from_fn(|a| places.iter().map(|place| place[a]).sum::<f64>() / count);
+    let together = |a: usize, b: usize| places.iter().map(|p| (p[a] - mean[a]) * (p[b] - mean[b])).sum::<f64>() / count;
+    let area = |rows: [usize; 2], columns: [usize; 2]| {
+        together(rows[0], columns[0]) * together(rows[1], columns[1])
+            - together(rows[0], columns[1]) * together(rows[1], columns[0])
+    };
+    let scale = (area([0, 1], [0, 1]) * area([2, 3], [2, 3])).sqrt();
+    (scale > 0.0).then(|| area([0, 1], [2, 3]) / scale)
 }
 
 fn median_distance(readings: &[Vec3], viewpoint: Vec3) -> Option<f64> {

@@ -41,13 +41,13 @@ pub fn read_depth_png(
 ) -> Result<Cloud> {
     if options.unit != Unit::Metre {
         return Err(
-            InputError::new("--unit is for clouds; a depth image has a unit of its own").mend("say --depth-unit")
+            InputError::new("--unit is for clouds; a depth image has a unit of its own").mend("say --depth-unit-m")
         );
     }
     if !bytes.starts_with(b"\x89PNG") {
         return Err(wrong_magic(bytes, "a PNG image"));
     }
-    finish(read_depth(bytes, camera, decoding)?, options, "is depth_unit_m (--depth-unit) right?")
+    finish(read_depth(bytes, camera, decoding)?, options, "is depth_unit_m (--depth-unit-m) right?")
 }
 
 fn check_magic(bytes: &[u8], format: Format) -> Result<()> {

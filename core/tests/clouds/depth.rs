@@ -43,7 +43,8 @@ fn what_does_not_fit_is_named() {
         (refusal(&png, Intrinsics { fx: 0.0, ..camera() }), "fx: is 0; must be a positive number"),
         (refusal(&png, Intrinsics { cy: f64::NAN, ..camera() }), "cy: is NaN; must be finite"),
         (refusal(&png, Intrinsics { depth_unit_m: -1.0, ..camera() }), "depth_unit_m: is -1"),
-        (refusal(&png, Intrinsics { depth_unit_m: 1.0, ..camera() }), "is depth_unit_m (--depth-unit) right?"),
+        (refusal(&png, Intrinsics { depth_unit_m: 1.0, ..camera() }), "is depth_unit_m (--depth-unit-m) right?"),
+        (refusal(&png, Intrinsics { depth_unit_m: 1e-9, ..camera() }), "is depth_unit_m (--depth-unit-m) right?"),
         (
             refusal(&png, Intrinsics { distortion: Distortion([-40.0, 0.0, 0.0, 0.0, 0.0]), ..camera() }),
             "cannot be undone",

@@ -73,6 +73,44 @@ fn frames() {
     assert!(list(0.5, -1.0, &PLAIN).is_ok(), "an unorganized cloud may be in any frame");
 }
 
+/// A floor seen by a pinhole camera, 32 x 24 points, with x, y and z as told.
+fn seen(told: impl Fn([f32; 3]) -> [f32; 3], options: &ReadOptions) -> Result<Cloud> {
+    let point = |k: usize| {
+        let (u, v) = ((k % 32) as f32 - 15.5, (k / 32) as f32 - 11.5);
+        let z = 1.0 - 0.01 * v;
+        told([u / 30.0 * z, v / 30.0 * z, z])
+    };
+    let bytes: Vec<u8> = (0..768).flat_map(point).flat_map(f32::to_le_bytes).collect();
+    read_cloud(&npy("<f4", "False", "(24, 32, 3)", &bytes), Format::Npy, options)
+}
+
+#[test]
+fn mirrored_images_are_refused_and_turned_ones_are_not() {
+    let mirrored = |read: Result<Cloud>| read.is_err_and(|error| error.to_string().contains("is mirrored"));
+    let mut cases = 0;
+    for sign in [[1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0]] {
+        let is_mirrored = sign[0] * sign[1] < 0.0;
+        assert_eq!(mirrored(seen(|[x, y, z]| [sign[0] * x, sign[1] * y, z], &PLAIN)), is_mirrored, "{sign:?}");
+        // OpenGL's camera looks along -z, with y upwards.
+        assert_eq!(mirrored(seen(|[x, y, z]| [sign[0] * x, -sign[1] * y, -z], &OPENGL)), is_mirrored, "{sign:?}");
+        // Turned by a quarter turn.
+        assert_eq!(mirrored(seen(|[x, y, z]| [-sign[1] * y, sign[0] * x, z], &PLAIN)), is_mirrored, "{sign:?}");
+        cases += 3;
+    }
+    assert_eq!(cases, 12);
+    // A line of readings, or few, tell nothing.
+    let nothing = [f32::NAN; 3];
+    assert!(seen(|[x, y, z]| if y.abs() < 0.02 { [x, -y, z] } else { nothing }, &PLAIN).is_ok());
+}
+
+#[test]
+fn readings_nearer_or_farther_than_any_unit_puts_them_say_so() {
+    let mend = |read: Result<Cloud>| read.unwrap_err().mend;
+    assert!(mend(seen(|p| p.map(|c| 90.0 * c), &PLAIN)).contains("neither metres nor millimetres"));
+    assert!(mend(seen(|p| p.map(|c| 900.0 * c), &PLAIN)).contains("--unit mm"));
+    assert!(mend(seen(|p| p.map(|c| 0.001 * c), &PLAIN)).contains("neither metres nor millimetres"));
+}
+
 #[test]
 fn a_frame_that_is_not_the_cameras_may_have_any_z() {
     let header =

@@ -41,7 +41,9 @@ def require_direction(name: str, values: Sequence[float]) -> None:
     require_finite(name, values)
     length = math.hypot(*values)
     if not SHORTEST_DIRECTION <= length <= LONGEST_DIRECTION:
-        raise ValueError(f"{name} has length {length:g}; a direction is told by a vector of length 1, or near it")
+        raise ValueError(
+            f"{name} has length {length:g}; a direction is told by a vector that is neither next to nothing nor huge"
+        )
 
 
 def require_positive(name: str, values: Iterable[float]) -> None:
