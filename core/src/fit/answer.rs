@@ -58,6 +58,9 @@ fn pose(body: &FittedBody) -> PoseAnswer {
     PoseAnswer { position: body.input_from_object.translation.vector.into(), orientation: [q.i, q.j, q.k, q.w] }
 }
 
+/// Less than this, in metres, radians or 1/m, is rounding.
+const ROUNDED: f64 = 1e-12;
+
 /// Of the shape, and of the flaps and tuck flaps that are known.
 fn parameters(
     roles: &[(usize, Role)],
@@ -78,6 +81,8 @@ fn parameters(
         let scale = if is_bounded(place, roles, seen) { settings.seen_scale } else { settings.unseen_scale };
         let sigma = solution.covariance[(place, place)].sqrt() * scale.dimension;
         let value = if place == THICKNESS { solution.body.board_m() } else { solution.body.get(place) };
+        // What nothing was seen of is 0 but for rounding.
+        let value = if value.abs() < ROUNDED { 0.0 } else { value };
         ParameterAnswer { value, sigma: Some(sigma) }
     };
     names.into_iter().map(|(place, name)| (name, answer(place))).collect()

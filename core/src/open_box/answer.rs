@@ -3,6 +3,7 @@ use std::collections::BTreeMap;
 use super::found_box::FoundBox;
 use super::hidden::unseen_parts;
 use super::judgement::{probability, Judgement};
+use super::limits::narrowed;
 use super::sight::{reading_of, Sight};
 use super::told::is_told;
 use crate::body::{InferenceAnswer, ObjectAnswer, PartAnswer, ScoreTermAnswer};
@@ -62,6 +63,11 @@ pub fn answer(
         joints: Vec::new(),
     };
     fill(&mut object, template, &roles, &seen, &solution, settings);
+    for joint in &mut object.joints {
+        let child = template.parts.iter().position(|part| part.name == joint.child);
+        let role = roles.iter().find(|(part, _)| Some(*part) == child).map(|(_, role)| *role);
+        joint.limits = role.map_or(joint.limits, |role| narrowed(joint.limits, &found.solution.body, role));
+    }
     if let Body::ClosedBox(_) = template.body {
         // Its top is no flap, and lies on the rim.
         object.parameters.retain(|name, _| !name.starts_with("flap"));

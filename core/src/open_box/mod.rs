@@ -29,6 +29,7 @@ mod labels;
 mod last_fits;
 mod lean;
 mod lids;
+mod limits;
 mod moved;
 mod next_view;
 mod owners;

@@ -82,6 +82,10 @@ pub fn tell_boxes(found: &[FoundBox], refused: &[Refused], sights: &[Sight], tel
         refused: sights.first().map_or_else(Vec::new, |first| lines(refused, first)),
         features: Vec::new(),
     };
+    // The best first, as they come out in the end; a stable sort: equals stay in their order.
+    let score = |one: &FoundBox| telling.judgement.map_or(one.score, |judgement| judgement.of_box(&one.features).0);
+    let mut found: Vec<&FoundBox> = found.iter().collect();
+    found.sort_by(|a, b| score(b).total_cmp(&score(a)));
     for one in found {
         if let Some(why) = tell_box(&mut answer, one, sights, telling) {
             let refused = Refused { body: one.solution.body.clone(), why };

@@ -70,12 +70,16 @@ def object_table(title: str, objects: tuple[Object, ...]) -> Table:
 
 
 def print_knowledge(number: int, found: Object, up: Vector) -> None:
-    """The given size that an object has, and for each hidden part from where it would be seen."""
+    """The given size that an object has, how its walls lean, and for each hidden part from where it would be seen."""
     out = console()
     if found.size is not None:
         outer = " x ".join(f"{1000 * metres:.0f}" for metres in found.size.outer_dimensions)
         told = f"{found.size.name} (length x width x height {outer} mm outside)"
         out.print(f"{number} {found.template} has the size {told}", soft_wrap=True)
+    leans = [(part.name, found.parameters.get(f"{part.name}_lean")) for part in found.parts]
+    told = [f"{name} {math.degrees(lean.value):.1f}" for name, lean in leans if lean is not None]
+    if told:
+        out.print(f"{number} {found.template} walls lean outwards, deg: {', '.join(told)}", soft_wrap=True)
     for part in found.parts:
         if part.seen_from is None or part.state is None:
             continue
