@@ -60,7 +60,7 @@ def test_what_stands_in_the_way_is_told_where_the_box_would_bear_a_push() -> Non
         assert ask_bearable(measured_box(problem.model, 0, np.eye(4)), told_of(crease))[name]
         flap = _plan(problem, told_of(crease)).flaps[name]
         assert flap.status == "blocked"
-        assert f"fingers comes too near to {obstacle}" in (flap.reason or "")
+        assert f"fingers come too near to {obstacle}" in (flap.reason or "")
 
 
 def test_a_couple_turns_what_a_push_would_move_the_box_for() -> None:

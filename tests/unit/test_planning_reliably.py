@@ -56,6 +56,8 @@ ON_THE_BASE = (1142, 113, "flap_3")
 """A flap of a flat box that meets its base before it is as far beyond closed as its crease gives back."""
 ASLANT = (1143, 86, "flap_2")
 """A flap far from the arm whose edge alone is in reach, with the finger aslant on it."""
+FAR_OFF = (1133, 7, "flap_3")
+"""A flap that no posture reaches once its box stands 0.4 m further away: what is near the hand is no reason."""
 NEAR_THE_SUPPORT = (1143, 59, "flap_1")
 """A flap of a flat box: a finger has room below it between the wide search's contacts alone."""
 STRANDED = {7: 2, 12: 1, 13: 2, 25: 1}
@@ -129,7 +131,7 @@ def test_without_wider_searches_the_first_ones_reason_is_told() -> None:
 def test_a_flap_is_held_with_the_very_tip_where_nothing_else_reaches_it() -> None:
     seed, number, name = BY_THE_TIP
     plan = _plan(seed, number, "ordinary")
-    assert _plan(seed, number, "ordinary", FIRMLY | USUAL).flaps[name].status == "blocked"
+    assert _plan(seed, number, "ordinary", FIRMLY | USUAL).flaps[name].status == "unreachable"
     assert plan.flaps[name].status == "planned"
     assert _keeps_clear(seed, number, plan)
     assert _all_held(seed, number, "ordinary", plan)
@@ -281,3 +283,14 @@ def test_a_flap_of_a_flat_box_is_not_pressed_onto_its_base() -> None:
     assert run.flaps[name].held
     assert (run.flaps[name].pushed_to_rad or 0.0) < 0.0
     assert run.max_force_n < GENTLE_N
+
+
+def test_a_flap_out_of_reach_is_told_as_such_whatever_is_near_it() -> None:
+    seed, number, name = FAR_OFF
+    problem = draw_problem(number, seed)
+    corners = np.array([part.corners for part in problem.model.objects[0].parts if part.corners is not None])
+    middle = corners.mean(axis=(0, 1))[:2]
+    base_from_input = np.eye(4)
+    base_from_input[:2, 3] = 0.4 * middle / np.linalg.norm(middle)
+    flap = plan_closing(problem.model, ROBOT, base_from_input, settings=told("ordinary")).flaps[name]
+    assert (flap.status, flap.reason) == ("unreachable", "where it stands: is out of the arm's reach")

@@ -42,6 +42,10 @@ impl Arm {
         }
     }
 
+    pub fn has_closed_form(&self) -> bool {
+        self.opw.is_some()
+    }
+
     /// The closed form's branches, limits aside; none where the pose is out of reach or there is no closed form.
     pub fn branches(&self, base_from_tool: &Rigid) -> Branches {
         let flange = base_from_tool.then(&self.gripper.flange_from_tool().inverse());

@@ -23,7 +23,7 @@ pub use gripper::Gripper;
 pub use inverse::{Solution, Solutions, MAX_SOLUTIONS};
 pub use jacobian::Jacobian;
 pub use joint::{Joint, Limits};
-pub use model::{Arm, Link};
+pub use model::{Arm, Link, FINGERS};
 pub use numeric_settings::NumericSettings;
 pub use opw::Opw;
 pub use positions::{JointPositions, MAX_AXES};

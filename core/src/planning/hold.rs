@@ -17,7 +17,7 @@ const CRUSHED_M: f64 = 0.002;
 /// A flap that is pressed onto a stack to come to rest closed is aimed this far within that, as stacks rest a little higher than told,
 /// and goes down by so much more for it at the most.
 const HOME_RAD: f64 = 0.0175;
-const MOST_PRESSED_RAD: f64 = 0.0611;
+const MOST_PRESSED_RAD: f64 = 0.108;
 
 impl<G: Guard> Closer<'_, G> {
     /// How far a flap is pushed: less where it comes to lie on others or carries a tuck.
@@ -31,8 +31,10 @@ impl<G: Guard> Closer<'_, G> {
         if !below.is_empty() || !self.problem.flaps[flap].tucks.is_empty() {
             return settings.short_on_others_rad;
         }
-        let beyond_rad = self.load.folds[flap].return_rad - settings.rest_aim_rad;
-        let hold_rad = -beyond_rad.clamp(0.0, settings.most_overclose_rad);
+        let fold = &self.load.folds[flap];
+        let beyond_rad = fold.return_rad - settings.rest_aim_rad;
+        // One whose weight keeps it down is not pushed so far that it comes to rest in the box.
+        let hold_rad = (-beyond_rad.clamp(0.0, settings.most_overclose_rad)).max(fold.held_rad(0.0).min(0.0));
         if stopped_by_rims(self.problem, flap, hold_rad, settings) {
             return settings.short_on_rims_rad;
         }

@@ -77,7 +77,7 @@ impl<G: Guard> Pusher<'_, G> {
         };
         let finer_settings = self.settings.with_finer_contacts();
         self.guard.explain_anew();
-        let mut why = None;
+        let (mut why, mut last) = (None, None);
         for (k, &beam) in self.settings.beams.iter().enumerate().filter(|(k, _)| self.searches.contains(k)) {
             if search.is_caught() {
                 break;
@@ -86,10 +86,31 @@ impl<G: Guard> Pusher<'_, G> {
                 k.checked_sub(1).map(|finer| self.contacts.finer(&finer_settings[finer.min(finer_settings.len() - 1)]));
             match search.run(beam, finer.as_ref().unwrap_or(&self.contacts), k > 0) {
                 Ok(motion) => return Ok(motion),
-                Err(found) => why = Some(found),
+                Err(found) => (why, last) = (Some(found), Some(finer)),
             }
         }
-        Err(why.unwrap_or_else(WhyNot::not_searched))
+        let why = why.unwrap_or_else(WhyNot::not_searched);
+        // Hands come too near to things at places that the arm does not reach, too.
+        let is_near_all = why.at_start && why.status == Status::Blocked;
+        let finest = last.flatten();
+        let is_reached = || self.comes_within_reach(finest.as_ref().unwrap_or(&self.contacts));
+        Err(if is_near_all && !is_reached() { why.out_of_reach() } else { why })
+    }
+
+    /// Whether some posture of the arm, limits and all that is in its way aside, holds the tool at some of these contacts where the flap
+    /// stands; a few places of them that hold all others between them are asked. Arms without a closed form are not asked.
+    fn comes_within_reach(&self, contacts: &Contacts<'_>) -> bool {
+        if !self.arm.has_closed_form() {
+            return true;
+        }
+        let frame = contacts.flap.frame(self.moment.angles_rad[self.flap]);
+        let turned = (0..contacts.grid.size()).filter_map(|k| contacts.turned(&frame, &contacts.rotation(k)));
+        let (along_m, away_m) = (spread(&contacts.along_m), spread(&contacts.away_m));
+        let places = || along_m.iter().flat_map(|&along| away_m.iter().map(move |&away| [along, away]));
+        turned.into_iter().any(|turned| {
+            let mut grips = places().filter_map(|place| contacts.grip_turned(&frame, place, &turned));
+            grips.any(|grip| !self.arm.branches(&grip.base_from_tool).is_empty())
+        })
     }
 
     /// Where the flaps are during the push: those that are closed already give way to the one that comes to lie on them.
@@ -229,6 +250,15 @@ pub fn closed_finger(arm: &Arm) -> Finger {
         length_m: gripper.finger_size_m.z,
     }
 }
+
+/// So many of them at the most, the first and the last among them.
+fn spread(places_m: &[f64]) -> Vec<f64> {
+    let last = places_m.len().saturating_sub(1);
+    let count = places_m.len().min(ASKED_PLACES);
+    (0..count).map(|k| places_m[k * last / (count - 1).max(1)]).collect()
+}
+
+const ASKED_PLACES: usize = 5;
 
 pub fn layers_between(from_rad: f64, to_rad: f64, step_rad: f64) -> Vec<f64> {
     let count = ((from_rad - to_rad).abs() / step_rad).ceil().max(1.0) as usize;

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::flap::Flap;
+use crate::arm::FINGERS;
 
 /// What kept a posture of the arm from being used.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -51,7 +52,10 @@ impl fmt::Display for Obstacle {
         match self {
             Self::Reach => write!(f, "is out of the arm's reach"),
             Self::Limit { joint } => write!(f, "is reached only beyond the limits of {joint}"),
-            Self::Near { body, other } => write!(f, "{body} comes too near to {other}"),
+            Self::Near { body, other } => {
+                let comes = if body == FINGERS { "come" } else { "comes" };
+                write!(f, "{body} {comes} too near to {other}")
+            }
             Self::Something => write!(f, "something is in the way"),
             Self::Moves => write!(f, "the crease takes more force than holds the box: it would slide or tip"),
             Self::Boards { flap, other } => write!(f, "{flap} meets {other}"),
@@ -154,6 +158,11 @@ impl WhyNot {
             moves_box: true,
             searched: true,
         }
+    }
+
+    /// The same flap, where no posture of the arm comes to any contact, whatever is near it.
+    pub fn out_of_reach(self) -> Self {
+        Self { status: Status::Unreachable, reason: format!("where it stands: {}", Obstacle::Reach), ..self }
     }
 
     /// No search was made.
