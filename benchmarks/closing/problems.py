@@ -23,9 +23,9 @@ Array = NDArray[np.float64]
 
 SEED = 2011
 """Of the set on which the planner was tuned; tests take theirs from it."""
-LATER_SEEDS = (*range(1126, 1145), 2012, 2013)
+LATER_SEEDS = (*range(1126, 1146), 2012, 2013)
 """Of sets of which boxes were reported on or looked at, and tuned on since."""
-REPORT_SEED = 1145
+REPORT_SEED = 1146
 """Of the set that the tables are about: drawn after the planner was tuned."""
 COUNT = 306
 ANGLES_DEG = (40.0, 235.0)
