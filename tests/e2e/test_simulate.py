@@ -101,6 +101,15 @@ def test_without_a_truth_the_inferred_box_is_closed_and_twice_is_the_same(plan_d
     assert runs[0] == runs[1]
 
 
+def test_a_run_leaves_nothing_of_an_earlier_one_beside_its_verdict(plan_dir: Path, tmp_path: Path) -> None:
+    earlier = ("simulation.gif", "simulation.png", "look_1/model.json", "look_1/plan.json", "notes.txt")
+    for name in earlier:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("earlier", encoding="utf-8")
+    assert boxwright("simulate", plan_dir, "-o", tmp_path, "--no-picture").status == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["notes.txt", "simulation.json"]
+
+
 def test_a_flap_that_springs_open_is_status_3(plan_dir: Path, tmp_path: Path) -> None:
     answer = boxwright("simulate", plan_dir, "-o", tmp_path, "--no-picture", "--crease", "stiff")
     assert answer.status == 3, answer

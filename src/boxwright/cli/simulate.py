@@ -66,6 +66,7 @@ def simulate(
     boxwright simulate out/plan --truth set/frame.truth.json --replan
     """
     from boxwright.cli.acting import act_at_once, act_looking
+    from boxwright.cli.leftovers import remove_run
     from boxwright.cli.plan_options import crease_settings, read_things
     from boxwright.cli.simulate_report import NOT_CLOSED, all_held, draw, print_run
     from boxwright.io.models import load_model
@@ -100,6 +101,7 @@ def simulate(
         done = act_at_once(staged, plan, crease or CREASE)
     folder = output or plan_dir
     folder.mkdir(parents=True, exist_ok=True)
+    remove_run(folder, keep=plan_dir)
     files = done.save_looks(folder)
     save_simulation(done.run.simulation, folder / "simulation.json")
     files += [folder / "simulation.json", *draw(done.run, folder, picture=picture, video=video)]
