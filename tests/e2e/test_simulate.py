@@ -122,6 +122,8 @@ def test_what_does_not_fit_is_refused_in_one_line(plan_dir: Path, tmp_path: Path
     cases = (
         (["--crease", "soft"], "must be one of pre_broken, ordinary, stiff"),
         (["--time-step-ms", "2"], "0.001 or less"),
+        (["--time-step-ms", "0.0001"], "0.00005 at the least"),
+        (["--mass-kg", "inf"], "1000 kg at most"),
         (["--truth", str(tmp_path / "far.truth.json")], "no true box is within"),
     )
     for options, words in cases:

@@ -26,7 +26,8 @@ def simulate(
         Path | None, typer.Option(metavar="FILE.toml", help="Your own classes of creases (docs/physics.md).")
     ] = None,
     mass_kg: Annotated[
-        float | None, typer.Option(min=0.0, help="Box and contents together; by default contents of 100 kg/m3.")
+        float | None,
+        typer.Option(min=0.0, help="Box and contents together, 1000 at most; by default contents of 100 kg/m3."),
     ] = None,
     empty: Annotated[bool, typer.Option("--empty", help="Nothing is in the box.")] = False,
     board_mm: Annotated[
@@ -35,7 +36,7 @@ def simulate(
     robot: Annotated[
         Path | None, typer.Option(metavar="FILE", help="The plan's robot (.toml, .urdf), where it is not shipped.")
     ] = None,
-    time_step_ms: Annotated[float, typer.Option(help="Physics' time step, 1 at most.")] = 1.0,
+    time_step_ms: Annotated[float, typer.Option(help="Physics' time step, from 0.05 to 1.")] = 1.0,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="DIR", help="Folder to write to; default: PLAN_DIR.")
     ] = None,
