@@ -33,7 +33,8 @@ def close(
     """Infer the box of one cloud, plan its closing and close it in physics.
 
     Writes DIR/NAME/ as `infer` does and DIR/NAME/plan/ as `plan` and `simulate` do; with --replan also each look's
-    model and plan, DIR/NAME/plan/look_1 and on. Exit status 0 when every flap is closed in the end, 3 when one is not.
+    model and plan, DIR/NAME/plan/look_1 and on. What --scene tells of stands in physics too. Exit status 0 when every
+    flap is closed in the end, 3 when one is not.
 
     [bold]Examples[/]
 
@@ -73,6 +74,7 @@ def close(
         None if truth is None else load_truth(truth),
         crease=crease,
         robot=robot_file(planning.robot),
+        scene=planning.things(),
         stills_per_s=10.0 if video else 4.0,
     )
     if replan:

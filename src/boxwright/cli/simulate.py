@@ -55,7 +55,8 @@ def simulate(
     """Let the arm follow a plan in physics, and see which flaps are closed and stay closed.
 
     Writes [bold]simulation.json[/], [bold]simulation.png[/] and with --video [bold]simulation.gif[/]; with --replan
-    each look's model and plan too, look_1 and on (--scene then tells what stands around, as in `plan`). Exit status 0
+    each look's model and plan too, look_1 and on. Tell the --scene of the plan: its things stand in physics too, and
+    with --replan they are planned around. Exit status 0
     when every flap that was planned is closed in the end, 3 when one is not.
 
     [bold]Examples[/]
@@ -79,6 +80,7 @@ def simulate(
     from boxwright.simulation.physics import CREASE, Load, PhysicsSettings, staged_plan
 
     step_s = time_step_ms / 1000.0
+    things = read_things(scene)
     plan = load_plan(plan_dir / "plan.json")
     model = load_model(plan_dir / "model.json")
     staged = staged_plan(
@@ -91,12 +93,13 @@ def simulate(
         load=Load(empty=empty, mass_kg=mass_kg),
         settings=PhysicsSettings(time_step_s=step_s),
         thickness_m=None if board_mm is None else board_mm / 1000.0,
+        scene=things,
         stills_per_s=(10.0 if video else 4.0) if picture or video else 0.0,
     )
     if replan:
         done = act_looking(
             staged, plan, model, crease or CREASE, lambda seen: infer(seen).model, robot or plan.robot,
-            scene=read_things(scene), settings=crease_settings(crease, crease_file),
+            scene=things, settings=crease_settings(crease, crease_file),
         )  # fmt: skip
     else:
         done = act_at_once(staged, plan, crease or CREASE)

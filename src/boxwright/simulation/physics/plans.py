@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from os import PathLike
-from typing import Literal
+from typing import Any, Literal
 
 import msgspec
 import numpy as np
@@ -34,19 +34,21 @@ def simulate(
     load: Load | None = None,
     settings: PhysicsSettings | None = None,
     thickness_m: float | None = None,
+    scene: Sequence[Mapping[str, Any]] = (),
     stills_per_s: float = 0.0,
 ) -> Run:
     """Follow a plan in physics, against the true box where a truth is given, else against the planned-on model.
 
     The true box is the one that stands where the planned object was thought to stand, its flaps named as the model
     names them. The frame's other boxes, true or inferred, stand where they are and do not move. `robot` is the
-    plan's, or its name or TOML file; `thickness_m` goes before what truth or model tell of the board.
+    plan's, or its name or TOML file; `thickness_m` goes before what truth or model tell of the board; `scene` is
+    what else stands around and does not move, as `plan_closing` takes it.
 
     Raises ValueError when plan, model and truth do not belong together, or a value cannot be used; OSError for files.
     """
     staged = staged_plan(
         plan, model, truth, crease=crease, crease_file=crease_file, robot=robot, load=load, settings=settings,
-        thickness_m=thickness_m, stills_per_s=stills_per_s,
+        thickness_m=thickness_m, scene=scene, stills_per_s=stills_per_s,
     )  # fmt: skip
     staged.session.follow(plan.segments)
     return run_of(staged.session, crease, staged.kind)
@@ -71,6 +73,7 @@ def staged_plan(
     load: Load | None = None,
     settings: PhysicsSettings | None = None,
     thickness_m: float | None = None,
+    scene: Sequence[Mapping[str, Any]] = (),
     stills_per_s: float = 0.0,
 ) -> Staged:
     """All that `simulate` needs, at rest before the plan's first posture; arguments and errors are those of it."""
@@ -95,6 +98,7 @@ def staged_plan(
         settings=settings,
         load=load,
         others=others,
+        scene=scene,
         stills_per_s=stills_per_s,
     )
     return Staged(session, tuple(others), "inferred" if truth is None else "true")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from typing import Literal
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
 
 import msgspec
 import numpy as np
@@ -82,6 +82,7 @@ class Session:
         settings: PhysicsSettings | None = None,
         load: Load | None = None,
         others: Sequence[BoardBox] = (),
+        scene: Sequence[Mapping[str, Any]] = (),
         stills_per_s: float = 0.0,
     ) -> None:
         self._began = time.perf_counter()
@@ -89,8 +90,9 @@ class Session:
         self.box, self._tool = box, tool
         self._contents_kg = (load or Load()).contents_kg(box, self.settings)
         world = build_world(
-            box, crease, self.settings, others=others, tool=(tool, start, opening_m), contents_kg=self._contents_kg
-        )
+            box, crease, self.settings, others=others, scene=scene, tool=(tool, start, opening_m),
+            contents_kg=self._contents_kg,
+        )  # fmt: skip
         self.stage = Stage(world, box, stills_per_s)
         self._place, self._opening_m = start, opening_m
         self._seen: dict[str, _Seen] = {}
