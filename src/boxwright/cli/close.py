@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from boxwright.cli.groups import grouped
-from boxwright.cli.options import JsonOption, ModelOptions, ReadOptions, SceneOptions
+from boxwright.cli.known_options import KnownOptions
+from boxwright.cli.options import JsonOption, ModelOptions, ReadOptions, SceneOptions, VerboseOption
 from boxwright.cli.plan_options import PlanOptions
+
+if TYPE_CHECKING:
+    from boxwright.types import Cloud, Model
 
 
 @grouped
@@ -20,6 +24,7 @@ def close(
     model: ModelOptions,
     reading: ReadOptions,
     looking: SceneOptions,
+    known: KnownOptions,
     truth: Annotated[
         Path | None,
         typer.Option("--truth", metavar="NAME.truth.json", help="Close the true box in physics, not the inferred one."),
@@ -29,57 +34,79 @@ def close(
     ] = False,
     video: Annotated[bool, typer.Option("--video", help="Draw simulation.gif too.")] = False,
     as_json: JsonOption = False,
+    verbose: VerboseOption = False,
 ) -> None:
     """Infer the box of one cloud, plan its closing and close it in physics.
 
     Writes DIR/NAME/ as `infer` does and DIR/NAME/plan/ as `plan` and `simulate` do; with --replan also each look's
-    model and plan, DIR/NAME/plan/look_1 and on. What --scene tells of stands in physics too. Exit status 0 when every
-    flap is closed in the end, 3 when one is not.
+    model and plan, DIR/NAME/plan/look_1 and on. What an earlier plan left there is removed. What --scene tells of
+    stands in physics too; what --size and --catalogue tell of counts at every look. --verbose prints what `infer` does.
+
+    Exit status 0 when every flap is closed in the end, 3 when one is not. With --replan the flaps that the box in
+    physics has count, whatever the first plan said; without it also those that could not be planned, but for a hidden
+    one that the true box does not have.
 
     [bold]Examples[/]
 
     boxwright close frame.pcd --robot viper_s850 --place-robot -o out
 
     boxwright close frame.pcd --robot viper_s850 --camera-pose camera.json --truth frame.truth.json --replan -o out
+
+    boxwright close frame.pcd --robot viper_s850 --place-robot --size 400x300x200 -o out
     """
     import time
 
     from boxwright.answers import save_answer
     from boxwright.cli.acting import act_at_once, act_looking
+    from boxwright.cli.infer_report import Told, print_json, print_outcome
+    from boxwright.cli.leftovers import remove_plan
+    from boxwright.cli.outcome import Outcome
     from boxwright.cli.plan_report import NOT_CLOSED, exit_status, print_plan
     from boxwright.cli.plan_steps import save_plan_folder
-    from boxwright.cli.simulate_report import all_held, draw, print_run
+    from boxwright.cli.simulate_report import all_closed, all_held, draw, flaps_lacking, print_run
     from boxwright.io.simulations import save_simulation
     from boxwright.io.truth import load_truth
     from boxwright.robots import robot_file
     from boxwright.simulation.physics import CREASE, staged_plan
 
-    planning.require_place()
-    planning.settings()
+    planning.refuse_unfit()
+    model.refuse_unfit(looking)
+    sizes = known.sizes(model.method_name)
+    true = None if truth is None else load_truth(truth)
     start = time.perf_counter()
     read = reading.read(cloud)
-    inferred = model.infer(read, looking, time.perf_counter() - start)
+    inferred = model.infer(read, looking, time.perf_counter() - start, sizes)
     folder = output / cloud.stem
-    save_answer(inferred, folder, cloud.stem)
+    answer = save_answer(inferred, folder, cloud.stem)
+    remove_plan(folder / "plan")
+    if verbose:
+        told = Outcome(cloud, Told(inferred.model, inferred.refused), answer)
+        print_outcome(told, verbose, as_json)
+        if as_json:
+            print_json([told], verbose)
     pose = planning.base_pose(inferred.model)
     made = planning.make(inferred.model, pose)
     files = save_plan_folder(made, inferred.model, pose, folder / "plan")
     print_plan(made, files, as_json=as_json)
-    if not made.segments:
+    if not made.segments and not replan:
         raise typer.Exit(exit_status(made))
     crease = planning.crease or CREASE
     staged = staged_plan(
         made,
         inferred.model,
-        None if truth is None else load_truth(truth),
+        true,
         crease=crease,
         robot=robot_file(planning.robot),
         scene=planning.things(),
         stills_per_s=10.0 if video else 4.0,
     )
     if replan:
+
+        def infer_again(seen: Cloud) -> Model:
+            return model.infer(seen, looking, sizes=sizes).model
+
         done = act_looking(
-            staged, made, inferred.model, crease, lambda seen: model.infer(seen, looking).model, planning.robot,
+            staged, made, inferred.model, crease, infer_again, planning.robot,
             scene=planning.things(), settings=planning.settings(),
         )  # fmt: skip
     else:
@@ -88,5 +115,10 @@ def close(
     save_simulation(done.run.simulation, folder / "plan" / "simulation.json")
     files += [folder / "plan" / "simulation.json", *draw(done.run, folder / "plan", picture=True, video=video)]
     print_run(done.run.simulation, done.order, files, as_json=as_json)
-    if exit_status(made) or not all_held(done.run.simulation, done.order):
+    simulation = done.run.simulation
+    if replan:
+        is_done = all_closed(simulation)
+    else:
+        is_done = not exit_status(made, flaps_lacking(made, simulation)) and all_held(simulation, done.order)
+    if not is_done:
         raise typer.Exit(NOT_CLOSED)

@@ -18,6 +18,7 @@ from boxwright.cli.options import (
     PosesOption,
     ReadOptions,
     SceneOptions,
+    VerboseOption,
 )
 
 if TYPE_CHECKING:
@@ -27,14 +28,6 @@ FigureOption = Annotated[bool, typer.Option("--figure", help="Draw NAME.png besi
 
 MjcfOption = Annotated[bool, typer.Option("--mjcf", help="Write NAME_K.mjcf too, for MuJoCo.")]
 SdfOption = Annotated[bool, typer.Option("--sdf", help="Write NAME_K.sdf too, for Gazebo.")]
-VerboseOption = Annotated[
-    bool,
-    typer.Option(
-        "--verbose",
-        help="Tell too why candidates were refused, which given size a box has, from where hidden parts would be seen, "
-        "and the time of each stage; with --json the refusals alone.",
-    ),
-]
 
 
 @grouped

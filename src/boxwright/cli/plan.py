@@ -40,6 +40,7 @@ def plan(
     from boxwright.cli.plan_steps import save_plan_folder
     from boxwright.io.models import load_model
 
+    planning.refuse_unfit()
     model = load_model(model_dir / "model.json")
     pose = planning.base_pose(model)
     made = planning.make(model, pose)

@@ -56,8 +56,8 @@ def simulate(
 
     Writes [bold]simulation.json[/], [bold]simulation.png[/] and with --video [bold]simulation.gif[/]; with --replan
     each look's model and plan too, look_1 and on. Tell the --scene of the plan: its things stand in physics too, and
-    with --replan they are planned around. Exit status 0
-    when every flap that was planned is closed in the end, 3 when one is not.
+    with --replan they are planned around. Exit status 0 when every flap that was planned, with --replan every flap that
+    the box has, is closed in the end, 3 when one is not.
 
     [bold]Examples[/]
 
@@ -70,7 +70,7 @@ def simulate(
     from boxwright.cli.acting import act_at_once, act_looking
     from boxwright.cli.leftovers import remove_run
     from boxwright.cli.plan_options import crease_settings, read_things
-    from boxwright.cli.simulate_report import NOT_CLOSED, all_held, draw, print_run
+    from boxwright.cli.simulate_report import NOT_CLOSED, all_closed, all_held, draw, print_run
     from boxwright.io.models import load_model
     from boxwright.io.plans import load_plan
     from boxwright.io.simulations import save_simulation
@@ -110,5 +110,5 @@ def simulate(
     save_simulation(done.run.simulation, folder / "simulation.json")
     files += [folder / "simulation.json", *draw(done.run, folder, picture=picture, video=video)]
     print_run(done.run.simulation, done.order, files, as_json=as_json)
-    if not all_held(done.run.simulation, done.order):
+    if not (all_closed(done.run.simulation) if replan else all_held(done.run.simulation, done.order)):
         raise typer.Exit(NOT_CLOSED)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from boxwright.simulation.physics import Run
-    from boxwright.types import FlapVerdict, Simulation
+    from boxwright.types import FlapVerdict, Plan, Simulation
 
 NOT_CLOSED = 3
 """Exit status when some flap was not closed (docs/formats.md)."""
@@ -19,6 +19,17 @@ def all_held(simulation: Simulation, order: Sequence[str]) -> bool:
     return simulation.failure is None and all(
         name in simulation.flaps and simulation.flaps[name].held for name in order
     )
+
+
+def all_closed(simulation: Simulation) -> bool:
+    """Is every flap that the box has closed at the end, planned or not? False for a run that proves nothing."""
+    flaps = [flap for name, flap in simulation.flaps.items() if name.startswith("flap")]
+    return simulation.failure is None and all(flap.held for flap in flaps)
+
+
+def flaps_lacking(plan: Plan, simulation: Simulation) -> frozenset[str]:
+    """Flaps of the plan that the true box does not have; of an inferred box nobody knows."""
+    return frozenset(plan.flaps.keys() - simulation.flaps.keys() if simulation.box == "true" else ())
 
 
 def draw(run: Run, folder: Path, *, picture: bool, video: bool) -> list[Path]:

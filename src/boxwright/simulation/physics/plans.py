@@ -46,6 +46,7 @@ def simulate(
 
     Raises ValueError when plan, model and truth do not belong together, or a value cannot be used; OSError for files.
     """
+    require_motion(plan)
     staged = staged_plan(
         plan, model, truth, crease=crease, crease_file=crease_file, robot=robot, load=load, settings=settings,
         thickness_m=thickness_m, scene=scene, stills_per_s=stills_per_s,
@@ -76,9 +77,10 @@ def staged_plan(
     scene: Sequence[Mapping[str, Any]] = (),
     stills_per_s: float = 0.0,
 ) -> Staged:
-    """All that `simulate` needs, at rest before the plan's first posture; arguments and errors are those of it."""
-    if not plan.segments:
-        raise ValueError("there is no segment to follow; a plan that closes no flap has no motion")
+    """All that `simulate` needs, at rest before the plan's first posture; arguments and errors are those of it.
+
+    Before a plan without a motion the arm waits in its ready pose, for plans that are made later.
+    """
     base_from_input = np.array(plan.base_from_input)
     box, others = scene_boxes(plan, model, truth, base_from_input, thickness_m)
     arm = Arm(robot if isinstance(robot, RobotFile) else load_robot(robot or plan.robot))
@@ -92,9 +94,9 @@ def staged_plan(
     session = Session(
         box,
         arm,
-        np.array(plan.segments[0].positions[0]),
+        np.array(plan.segments[0].positions[0]) if plan.segments else np.radians(arm.robot.ready_deg),
         crease_class(crease, crease_file),
-        opening_m=plan.segments[0].gripper_opening_m,
+        opening_m=plan.segments[0].gripper_opening_m if plan.segments else 0.0,
         settings=settings,
         load=load,
         others=others,
@@ -102,6 +104,12 @@ def staged_plan(
         stills_per_s=stills_per_s,
     )
     return Staged(session, tuple(others), "inferred" if truth is None else "true")
+
+
+def require_motion(plan: Plan) -> None:
+    """Raises ValueError where a plan has nothing that could be followed."""
+    if not plan.segments:
+        raise ValueError("there is no segment to follow; a plan that closes no flap has no motion")
 
 
 def scene_boxes(
