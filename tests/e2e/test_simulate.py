@@ -140,6 +140,8 @@ def test_what_does_not_fit_is_refused_in_one_line(plan_dir: Path, tmp_path: Path
         (["--time-step-ms", "2"], "0.001 or less"),
         (["--time-step-ms", "0.0001"], "0.00005 at the least"),
         (["--mass-kg", "inf"], "1000 kg at most"),
+        (["--board-mm", "1000"], "board is told to be 1000 mm thick; it is 50 at most"),
+        (["--board-mm", "inf"], "board is told to be inf mm thick"),
         (["--truth", str(tmp_path / "far.truth.json")], "no true box is within"),
         (["--scene", str(tmp_path / "gone.urdf")], "gone.urdf: No such file"),
         (["--scene", str(tmp_path / "far.truth.json")], "far.truth.json: is no XML"),
@@ -150,6 +152,16 @@ def test_what_does_not_fit_is_refused_in_one_line(plan_dir: Path, tmp_path: Path
         (line,) = answer.err.splitlines()
         assert words in line
     assert not (tmp_path / "out").exists()
+
+
+def test_a_plan_without_a_motion_has_nothing_to_follow(plan_dir: Path, tmp_path: Path) -> None:
+    plan = load_plan(plan_dir / "plan.json")
+    save_plan(msgspec.structs.replace(plan, order=(), segments=()), tmp_path / "plan.json")
+    (tmp_path / "model.json").write_bytes((plan_dir / "model.json").read_bytes())
+    answer = boxwright("simulate", tmp_path, "--no-picture")
+    assert answer.status == 1, answer
+    assert "no segment to follow" in answer.err
+    assert not (tmp_path / "simulation.json").exists()
 
 
 def test_a_robot_is_written_as_mjcf(tmp_path: Path) -> None:

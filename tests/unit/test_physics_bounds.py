@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import msgspec
 import mujoco
 import numpy as np
 import pytest
 
-from boxwright.simulation.physics import Load, PhysicsSettings, Session, crease_class, true_box
+from boxwright.simulation.physics import Load, PhysicsSettings, Session, crease_class, staged_plan, true_box
 from boxwright.simulation.physics.quiet import heard_warnings
+from boxwright.types import Plan
 from support.finger import Finger, push_shut
 from support.true_boxes import carton, truth_of
+from support.true_models import model_of
 
 
 @pytest.mark.parametrize("mass_kg", [float("inf"), float("nan"), -float("inf"), -1.0, 0.0, 1000.1, 1e30])
@@ -75,3 +78,27 @@ def _blow_up() -> None:
     data = mujoco.MjData(model)
     data.qvel[0] = np.nan
     mujoco.mj_step(model, data)
+
+
+@pytest.mark.parametrize("thickness_m", [0.0501, float("inf"), float("nan"), 0.0, -0.004])
+def test_board_is_no_thicker_than_board_can_be(thickness_m: float) -> None:
+    truth = truth_of(carton())
+    plan = Plan(
+        format="boxwright.plan",
+        version=1,
+        robot="viper_s850",
+        base_from_input=tuple(map(tuple, np.eye(4).tolist())),  # type: ignore[arg-type]
+        joint_names=(),
+        order=(),
+        flaps={},
+        segments=(),
+        method="none",
+    )
+    with pytest.raises(ValueError, match="thick"):
+        staged_plan(plan, model_of(truth), truth, thickness_m=thickness_m)
+
+
+def test_a_panel_without_room_for_its_board_is_told_by_its_size() -> None:
+    thick = msgspec.structs.replace(true_box(truth_of(carton()), 0, np.eye(4)), thickness_m=0.4)
+    with pytest.raises(ValueError, match=r"^a panel of 300 x \d+ mm leaves no room for board 400 mm thick$"):
+        Session(thick, Finger(), np.zeros(3), crease_class("ordinary"))

@@ -31,7 +31,7 @@ def simulate(
     ] = None,
     empty: Annotated[bool, typer.Option("--empty", help="Nothing is in the box.")] = False,
     board_mm: Annotated[
-        float | None, typer.Option(min=0.1, help="Thickness of the board, before what truth or model tell.")
+        float | None, typer.Option(min=0.1, help="Thickness of the board, 50 at most, before what truth or model tell.")
     ] = None,
     robot: Annotated[
         Path | None, typer.Option(metavar="FILE", help="The plan's robot (.toml, .urdf), where it is not shipped.")

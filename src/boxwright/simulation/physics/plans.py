@@ -19,8 +19,12 @@ from boxwright.simulation.physics.run import CREASE, Run, run_of
 from boxwright.simulation.physics.session import Load, Session
 from boxwright.simulation.physics.settings import PhysicsSettings
 from boxwright.types import Model, Plan, RobotFile, Truth
+from boxwright.types.checks import require_positive
 
 Array = NDArray[np.float64]
+
+THICKEST_M = 0.05
+"""Three times the thickest cardboard there is; what is thicker has no creases."""
 
 
 def simulate(
@@ -118,6 +122,7 @@ def scene_boxes(
     """The box to close, and the others of the scene, in the robot's base frame; errors as `simulate`."""
     if not 0 <= plan.object < len(model.objects):
         raise ValueError(f"the plan is for object {plan.object}; the model has {len(model.objects)}, counted from 0")
+    _refuse_thickness(thickness_m)
     modelled = modelled_box(model.objects[plan.object], model.up, base_from_input, thickness_m)
     if truth is None:
         rest = [found for k, found in enumerate(model.objects) if k != plan.object and found.pose is not None]
@@ -125,3 +130,11 @@ def scene_boxes(
     true_boxes = [true_box(truth, k, base_from_input, thickness_m) for k in range(len(truth.boxes))]
     index, box = matched(true_boxes, modelled)
     return box, [other for k, other in enumerate(true_boxes) if k != index]
+
+
+def _refuse_thickness(thickness_m: float | None) -> None:
+    if thickness_m is None:
+        return
+    require_positive("thickness_m", [min(thickness_m, THICKEST_M)])
+    if thickness_m > THICKEST_M:
+        raise ValueError(f"board is told to be {1e3 * thickness_m:g} mm thick; it is {1e3 * THICKEST_M:g} at most")
