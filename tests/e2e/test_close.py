@@ -140,6 +140,22 @@ def test_what_is_known_of_the_box_counts_and_is_told_as_infer_tells_it(
     assert not (plan / "trajectory.csv").exists()
 
 
+def test_several_frames_of_a_box_are_closed_as_one(tmp_path: Path) -> None:
+    made = boxwright("synth", "set", "--count", "1", "--seed", "5", "--category", "small", "--views", "2",
+                     folder=tmp_path)  # fmt: skip
+    assert made.status == 0, made.err
+    (poses,) = (tmp_path / "set").glob("*.poses.toml")
+    frame = poses.with_name(poses.name.replace(".poses.toml", ".pcd"))
+    options = ("--robot", "viper_s850", "--camera-pose", _far(tmp_path), "-o", "out")
+    run = boxwright("close", "--poses", poses, *options, folder=tmp_path)
+    assert run.status == 1, run
+    assert "out of any reach" in run.err
+    (folder,) = (tmp_path / "out").iterdir()
+    assert len(load_model(folder / "model.json").source.frames) == 2
+    assert boxwright("close", frame, "--poses", poses, *options, folder=tmp_path).status == 2
+    assert boxwright("close", *options, folder=tmp_path).status == 2
+
+
 def _far(folder: Path) -> Path:
     path = folder / "far.json"
     path.write_text('{"position": [5.0, 0.0, 0.0], "orientation": [1.0, 0.0, 0.0, 0.0]}', encoding="utf-8")

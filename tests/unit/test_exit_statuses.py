@@ -7,7 +7,7 @@ from typing import Literal
 import pytest
 
 from boxwright.cli.plan_report import NOT_CLOSED, exit_status
-from boxwright.cli.simulate_report import all_closed, flaps_lacking
+from boxwright.cli.simulate_report import all_as_planned, all_closed
 from boxwright.types import FlapOutcome, FlapVerdict, Plan, Simulation
 
 
@@ -18,7 +18,7 @@ def _plan(**statuses: str) -> Plan:
         robot="arm",
         base_from_input=((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)),
         joint_names=("joint_1",),
-        order=(),
+        order=tuple(name for name, status in statuses.items() if status == "planned"),
         flaps={
             name: FlapOutcome(status=status, reason=None if status == "planned" else "so", seconds=0.0)  # type: ignore[arg-type]
             for name, status in statuses.items()
@@ -68,8 +68,10 @@ def test_a_flap_that_is_not_planned_is_3_but_for_a_hidden_one_that_is_not_there(
 
 def test_of_a_true_box_it_is_known_which_flaps_it_lacks() -> None:
     plan = _plan(flap_0="planned", flap_1="hidden")
-    assert flaps_lacking(plan, _run(flap_0=True)) == {"flap_1"}
-    assert not flaps_lacking(plan, _run("inferred", flap_0=True))
+    assert all_as_planned(_run(flap_0=True), plan)
+    assert not all_as_planned(_run("inferred", flap_0=True), plan)
+    assert not all_as_planned(_run(flap_0=True, flap_1=False), plan)
+    assert not all_as_planned(_run(flap_0=False), plan)
 
 
 def test_all_flaps_of_the_box_count_whoever_planned_them_and_tucks_do_not() -> None:
