@@ -14,6 +14,9 @@ from boxwright.pipeline import Inferred
 from boxwright.segmentation import Segmented
 from boxwright.types import Object
 
+PNG_COLOR_TYPE_AT, PNG_RGBA = 25, 6
+"""Where a PNG's head says what its pixels are, and what it says of colours with opacity, as figures have them."""
+
 WRITERS: dict[str, Callable[[Object, Path], None]] = {"urdf": save_urdf, "mjcf": save_mjcf, "sdf": save_sdf}
 """What an object is exported as, by the suffix of its file."""
 
@@ -22,12 +25,13 @@ def save_answer(inferred: Inferred, folder: Path, name: str, formats: Sequence[s
     """Writes an answer to a folder, which is made where it is missing; the files written, model.json first.
 
     `name` names the exports: NAME_K.urdf for object K, likewise .mjcf and .sdf where `formats` has them. An object
-    without a pose has none; the model's warnings say so. Exports of an earlier answer to the same input are removed,
-    since their objects may be gone.
+    without a pose has none; the model's warnings say so. Exports, labels and the figure NAME.png of an earlier answer
+    in that folder are removed, since their objects may be gone.
 
     Raises OSError when something cannot be written, KeyError for a format that WRITERS does not have.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    _remove_earlier(folder, name)
     model, labels = folder / "model.json", folder / "labels.npz"
     save_model(inferred.model, model)
     write_labels(PointLabels(object=inferred.object_labels, part=inferred.part_labels), labels)
@@ -40,10 +44,9 @@ def save_fused(fused: Fused, folder: Path, name: str, formats: Sequence[str] = (
     Raises OSError when something cannot be written, KeyError for a format that WRITERS does not have.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    _remove_earlier(folder, name)
     model = folder / "model.json"
     save_model(fused.model, model)
-    for earlier in folder.glob("labels*.npz"):
-        earlier.unlink()
     labels = [folder / f"labels_{number}.npz" for number in range(1, len(fused.labels) + 1)]
     for path, of_frame in zip(labels, fused.labels, strict=True):
         write_labels(of_frame, path)
@@ -63,7 +66,6 @@ def save_segmentation(segmented: Segmented, folder: Path) -> tuple[Path, ...]:
 
 
 def _save_exports(objects: Sequence[Object], folder: Path, name: str, formats: Sequence[str]) -> list[Path]:
-    _remove_exports(folder, name)
     exports = []
     for k, found in enumerate(objects):
         for suffix in formats if found.pose is not None else ():
@@ -72,8 +74,24 @@ def _save_exports(objects: Sequence[Object], folder: Path, name: str, formats: S
     return exports
 
 
-def _remove_exports(folder: Path, name: str) -> None:
+def _remove_earlier(folder: Path, name: str) -> None:
+    """Removes what only some answers have, or have another number of; the input may be NAME.png in the same folder."""
     for path in folder.iterdir():
-        number = path.stem.removeprefix(f"{name}_")
-        if path.suffix[1:] in WRITERS and path.stem == f"{name}_{number}" and number.isdecimal():
+        is_export = path.suffix[1:] in WRITERS and _is_numbered(path.stem, name)
+        is_labels = path.suffix == ".npz" and (path.stem == "labels" or _is_numbered(path.stem, "labels"))
+        if is_export or is_labels or (path.name == f"{name}.png" and _is_figure(path)):
             path.unlink()
+
+
+def _is_numbered(stem: str, name: str) -> bool:
+    number = stem.removeprefix(f"{name}_")
+    return stem == f"{name}_{number}" and number.isdecimal()
+
+
+def _is_figure(path: Path) -> bool:
+    """Figures are in colour; a depth image has one channel."""
+    if not path.is_file():
+        return False
+    with path.open("rb") as stream:
+        head = stream.read(PNG_COLOR_TYPE_AT + 1)
+    return len(head) > PNG_COLOR_TYPE_AT and head[PNG_COLOR_TYPE_AT] == PNG_RGBA

@@ -107,28 +107,31 @@ def close_by_looking(
 
     Where a look does not show the box, or shows one of another size in its place, what was seen before counts on, with
     the flaps that were closed since. `planning` goes to `plan_closing`. Ends when nothing is left to plan, or each flap
-    left was tried `TRIES` times. Raises as `plan_closing` does on the first model.
+    left was tried `TRIES` times; where the first sight lets nothing be planned it is looked once more before that.
+    Raises as `plan_closing` does on the first model.
     """
     measured_box(first, object_index, base_from_input)
     tries = _Tries(base_from_input)
-    sight, blind = _Sight(first, object_index), 0
+    sight, blind, has_looked = _Sight(first, object_index), 0, False
     steps: list[Step] = []
     while True:
         plan = _next_flap(sight, robot, base_from_input, tries, planning)
-        if plan is None:
+        if plan is None and has_looked:
             return Looked(tuple(steps), blind, "nothing is left that can be planned")
-        stopped = place.act(plan, sight.model)
-        steps.append(Step(sight.model, plan))
-        if stopped is not None:
-            return Looked(tuple(steps), blind, stopped)
-        if plan.segments[-1].positions[-1] != plan.segments[0].positions[0]:
-            return Looked(tuple(steps), blind, "the arm found no way back to where it looks from")
-        seen = infer(place.look())
+        if plan is not None:
+            stopped = place.act(plan, sight.model)
+            steps.append(Step(sight.model, plan))
+            if stopped is not None:
+                return Looked(tuple(steps), blind, stopped)
+            if plan.segments[-1].positions[-1] != plan.segments[0].positions[0]:
+                return Looked(tuple(steps), blind, "the arm found no way back to where it looks from")
+        seen, has_looked = infer(place.look()), True
         found = _same_box(seen, sight.box)
         if found is not None:
             sight = _Sight(seen, found)
         else:
-            sight, blind = _Sight(sight.model, sight.index, (*sight.closed, *plan.order)), blind + 1
+            since = () if plan is None else plan.order
+            sight, blind = _Sight(sight.model, sight.index, (*sight.closed, *since)), blind + 1
 
 
 def _next_flap(

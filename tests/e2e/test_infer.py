@@ -8,6 +8,7 @@ from pathlib import Path
 
 import jsonschema
 import numpy as np
+from PIL import Image
 
 from boxwright.io.clouds import read_cloud, write_pcd
 from boxwright.io.labels import read_labels
@@ -104,6 +105,28 @@ def test_old_urdfs_go_when_their_objects_are_gone(frame: Path, carton: tuple[str
     assert not (folder / "small_0000_17.urdf").exists()
     assert not (folder / "small_0000_17.mjcf").exists()
     assert (folder / "mine.urdf").exists()
+
+
+def test_an_earlier_figure_and_labels_of_frames_go_where_the_answer_has_none(
+    frame: Path, carton: tuple[str, ...], tmp_path: Path
+) -> None:
+    folder = tmp_path / "small_0000"
+    assert boxwright("infer", frame, "-o", tmp_path, *carton, "--figure").status == 0
+    (folder / "labels_1.npz").write_text("old")
+    (folder / "labels_mine.npz").write_text("kept")
+    assert boxwright("infer", frame, "-o", tmp_path, *carton).status == 0
+    urdfs = {path.name for path in folder.glob("*.urdf")}
+    assert {path.name for path in folder.iterdir()} == {"model.json", "labels.npz", "labels_mine.npz", *urdfs}
+
+
+def test_a_depth_image_that_lies_where_its_figure_would_is_no_figure(
+    frame: Path, carton: tuple[str, ...], tmp_path: Path
+) -> None:
+    folder = tmp_path / "small_0000"
+    folder.mkdir()
+    Image.fromarray(np.ones((4, 4), dtype=np.uint16)).save(folder / "small_0000.png")
+    assert boxwright("infer", frame, "-o", tmp_path, *carton).status == 0
+    assert (folder / "small_0000.png").exists()
 
 
 def test_mjcf_and_sdf_are_written_where_they_are_asked_for(

@@ -69,6 +69,33 @@ def test_a_flap_that_stays_open_gives_three_and_says_why(model_dir: Path) -> Non
     assert flap.reason
 
 
+def test_a_plan_that_closes_nothing_leaves_no_earlier_motion_and_nothing_foreign_is_removed(model_dir: Path) -> None:
+    folder = model_dir / "plan"
+    assert _plan(model_dir, "--robot", "viper_s850", "--camera-pose", str(_pose(model_dir))).status == 0
+    run_of_it = ("simulation.json", "simulation.png", "simulation.gif", "look_1/plan.json", "look_2/model.json")
+    foreign = ("simulation.txt", "look_2/notes.txt", "look_at_this/plan.json", "trajectory.csv.bak")
+    for name in (*run_of_it, *foreign):
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text("earlier", encoding="utf-8")
+    far = _pose(model_dir, position=[0.62, -0.4, 0.0])
+    run = _plan(model_dir, "--robot", "viper_s850", "--camera-pose", str(far))
+    assert run.status == 3, run.err
+    left = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+    assert left == {"plan.json", "model.json", "camera_pose.json", *foreign}
+    assert not (folder / "look_1").exists()
+
+
+def test_a_look_can_be_planned_on_into_the_folder_that_it_lies_in(model_dir: Path) -> None:
+    """The first look of an earlier run, once more."""
+    look = model_dir / "plan" / "look_1"
+    look.mkdir(parents=True)
+    (look / "model.json").write_bytes((model_dir / "model.json").read_bytes())
+    pose = str(_pose(model_dir))
+    run = boxwright("plan", look, "-o", model_dir / "plan", "--robot", "viper_s850", "--camera-pose", pose)
+    assert run.status == 0, run.err
+    assert (look / "model.json").exists()
+
+
 REFUSED = [
     ("unknown robot", ("--robot", "robby"), {}, 1, "viper_s850"),
     ("out of reach", ("--robot", "viper_s850"), {"position": [5.0, 0.0, 0.0]}, 1, "out of reach"),

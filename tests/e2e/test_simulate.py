@@ -13,9 +13,10 @@ import pytest
 from PIL import Image
 
 from boxwright.io.models import save_model
-from boxwright.io.plans import save_plan
+from boxwright.io.plans import load_plan, save_plan
 from boxwright.io.simulations import load_simulation
 from boxwright.io.truth import save_truth
+from boxwright.robots import load_robot as load_robot_of_core
 from boxwright.simulation.physics import Arm, load_robot, true_box
 from boxwright.simulation.physics.pictures import CAPTION_HEIGHT_PX
 from boxwright.types import FlapOutcome, Plan, Truth
@@ -101,6 +102,30 @@ def test_without_a_truth_the_inferred_box_is_closed_and_twice_is_the_same(plan_d
     assert runs[0] == runs[1]
 
 
+def test_a_run_leaves_nothing_of_an_earlier_one_beside_its_verdict(plan_dir: Path, tmp_path: Path) -> None:
+    earlier = ("simulation.gif", "simulation.png", "look_1/model.json", "look_1/plan.json", "notes.txt")
+    for name in earlier:
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("earlier", encoding="utf-8")
+    assert boxwright("simulate", plan_dir, "-o", tmp_path, "--no-picture").status == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["notes.txt", "simulation.json"]
+
+
+def test_the_obstacles_of_a_scene_stand_in_physics_too(plan_dir: Path, tmp_path: Path) -> None:
+    tip = np.array(load_plan(plan_dir / "plan.json").segments[-1].positions[0])
+    x, y, z = load_robot_of_core("viper_s850").forward(tip)[:3, 3] + (0.0, 0.0, 0.12)
+    scene = tmp_path / "scene.urdf"
+    scene.write_text(
+        f'<robot name="s"><link name="lamp"><collision><origin xyz="{x} {y} {z}"/>'
+        '<geometry><box size="0.05 0.05 0.02"/></geometry></collision></link></robot>',
+        encoding="utf-8",
+    )
+    answer = boxwright("simulate", plan_dir, "-o", tmp_path, "--no-picture", "--scene", scene)
+    assert answer.status in (0, 3), answer
+    touched = {second for _, second in load_simulation(tmp_path / "simulation.json").unwanted}
+    assert touched == {"scene_lamp"}
+
+
 def test_a_flap_that_springs_open_is_status_3(plan_dir: Path, tmp_path: Path) -> None:
     answer = boxwright("simulate", plan_dir, "-o", tmp_path, "--no-picture", "--crease", "stiff")
     assert answer.status == 3, answer
@@ -113,7 +138,13 @@ def test_what_does_not_fit_is_refused_in_one_line(plan_dir: Path, tmp_path: Path
     cases = (
         (["--crease", "soft"], "must be one of pre_broken, ordinary, stiff"),
         (["--time-step-ms", "2"], "0.001 or less"),
+        (["--time-step-ms", "0.0001"], "0.00005 at the least"),
+        (["--mass-kg", "inf"], "1000 kg at most"),
+        (["--board-mm", "1000"], "board is told to be 1000 mm thick; it is 50 at most"),
+        (["--board-mm", "inf"], "board is told to be inf mm thick"),
         (["--truth", str(tmp_path / "far.truth.json")], "no true box is within"),
+        (["--scene", str(tmp_path / "gone.urdf")], "gone.urdf: No such file"),
+        (["--scene", str(tmp_path / "far.truth.json")], "far.truth.json: is no XML"),
     )
     for options, words in cases:
         answer = boxwright("simulate", plan_dir, "-o", tmp_path / "out", "--no-picture", *options)
@@ -121,6 +152,16 @@ def test_what_does_not_fit_is_refused_in_one_line(plan_dir: Path, tmp_path: Path
         (line,) = answer.err.splitlines()
         assert words in line
     assert not (tmp_path / "out").exists()
+
+
+def test_a_plan_without_a_motion_has_nothing_to_follow(plan_dir: Path, tmp_path: Path) -> None:
+    plan = load_plan(plan_dir / "plan.json")
+    save_plan(msgspec.structs.replace(plan, order=(), segments=()), tmp_path / "plan.json")
+    (tmp_path / "model.json").write_bytes((plan_dir / "model.json").read_bytes())
+    answer = boxwright("simulate", tmp_path, "--no-picture")
+    assert answer.status == 1, answer
+    assert "no segment to follow" in answer.err
+    assert not (tmp_path / "simulation.json").exists()
 
 
 def test_a_robot_is_written_as_mjcf(tmp_path: Path) -> None:

@@ -115,3 +115,15 @@ def test_looks_are_the_same_bits_again_and_differ_from_one_another(problem: Prob
     first, again = one.look(), other.look()
     assert np.array_equal(first.points, again.points, equal_nan=True)
     assert not np.array_equal(first.points, one.look().points, equal_nan=True)
+
+
+def test_where_the_first_sight_lets_nothing_be_planned_it_is_looked_once_more(problem: Problem) -> None:
+    """All flaps of the first sight are closed; they are not."""
+    flat = tuple(msgspec.structs.replace(joint, position=0.0) for joint in problem.box.joints)
+    closed = msgspec.structs.replace(problem.model, objects=(msgspec.structs.replace(problem.box, joints=flat),))
+    for sights, steps in (([closed], 0), ([problem.model, closed], 1)):
+        left = list(sights)
+        live = _live(problem, camera_pose(problem))
+        looked = close_by_looking(closed, ROBOT, np.eye(4), live, lambda _, left=left: left.pop(0))
+        assert len(looked.steps) == steps
+        assert not left, "it looked less often"

@@ -37,9 +37,10 @@ class Acted:
 
 
 def act_at_once(staged: Staged, plan: Plan, crease: str) -> Acted:
-    """Follows the whole plan."""
-    from boxwright.simulation.physics import run_of
+    """Follows the whole plan; raises ValueError where it has no motion."""
+    from boxwright.simulation.physics import require_motion, run_of
 
+    require_motion(plan)
     staged.session.follow(plan.segments)
     return Acted(run_of(staged.session, crease, staged.kind), plan.order, None)
 

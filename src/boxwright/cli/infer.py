@@ -18,6 +18,7 @@ from boxwright.cli.options import (
     PosesOption,
     ReadOptions,
     SceneOptions,
+    VerboseOption,
 )
 
 if TYPE_CHECKING:
@@ -27,14 +28,6 @@ FigureOption = Annotated[bool, typer.Option("--figure", help="Draw NAME.png besi
 
 MjcfOption = Annotated[bool, typer.Option("--mjcf", help="Write NAME_K.mjcf too, for MuJoCo.")]
 SdfOption = Annotated[bool, typer.Option("--sdf", help="Write NAME_K.sdf too, for Gazebo.")]
-VerboseOption = Annotated[
-    bool,
-    typer.Option(
-        "--verbose",
-        help="Tell too why candidates were refused, which given size a box has, from where hidden parts would be seen, "
-        "and the time of each stage; with --json the refusals alone.",
-    ),
-]
 
 
 @grouped
@@ -71,11 +64,9 @@ def infer(
 
     boxwright infer depth.png -o out --intrinsics camera.json --roi=-1,1,-1,1,0.4,2
     """
-    import time
-
-    from boxwright.answers import save_answer, save_fused
-    from boxwright.cli.frames import inputs_of, name_of_poses, read_frames
-    from boxwright.cli.infer_report import Told, print_json, print_outcome
+    from boxwright.cli.answering import Answering
+    from boxwright.cli.frames import inputs_of
+    from boxwright.cli.infer_report import print_json, print_outcome
     from boxwright.cli.outcome import answer_each
     from boxwright.cli.pictures import frame_figure_drawer
 
@@ -84,25 +75,15 @@ def infer(
     model.refuse_unfit(scene)
     draw = frame_figure_drawer() if figure else None
     formats = ["urdf", *(["mjcf"] if mjcf else []), *(["sdf"] if sdf else [])]
+    answering = Answering(model, reading, scene, sizes, output, formats)
 
     def answer(path: Path) -> tuple[Told, tuple[Path, ...]]:
-        start = time.perf_counter()
-        if poses is not None:
-            frames = read_frames(path, reading)
-            fused = model.infer_frames(frames, scene, time.perf_counter() - start, sizes, path.name)
-            name = name_of_poses(path)
-            files = save_fused(fused, output / name, name, formats)
-            if draw is not None:
-                files = (*files, output / name / f"{name}.png")
-                draw(frames[0].cloud, fused.first, files[-1], model.template_names)
-            return Told(fused.model, fused.refused), files
-        cloud = reading.read(path)
-        inferred = model.infer(cloud, scene, time.perf_counter() - start, sizes)
-        files = save_answer(inferred, output / path.stem, path.stem, formats)
+        made = answering.of_cloud(path) if poses is None else answering.of_poses(path)
+        files = made.files
         if draw is not None:
-            files = (*files, output / path.stem / f"{path.stem}.png")
-            draw(cloud, inferred, files[-1], model.template_names)
-        return Told(inferred.model, inferred.refused), files
+            files = (*files, made.folder / f"{made.name}.png")
+            draw(made.cloud, made.first, files[-1], model.template_names)
+        return made.told, files
 
     outcomes = answer_each(inputs, answer, lambda outcome: print_outcome(outcome, verbose, as_json), jobs, "infer")
     if as_json:

@@ -77,9 +77,9 @@ def print_knowledge(number: int, found: Object, up: Vector) -> None:
         told = f"{found.size.name} (length x width x height {outer} mm outside)"
         out.print(f"{number} {found.template} has the size {told}", soft_wrap=True)
     leans = [(part.name, found.parameters.get(f"{part.name}_lean")) for part in found.parts]
-    told = [f"{name} {math.degrees(lean.value):.1f}" for name, lean in leans if lean is not None]
-    if told:
-        out.print(f"{number} {found.template} walls lean outwards, deg: {', '.join(told)}", soft_wrap=True)
+    walls = ", ".join(f"{name} {math.degrees(lean.value):.1f}" for name, lean in leans if lean is not None)
+    if walls:
+        out.print(f"{number} {found.template} walls lean outwards, deg: {walls}", soft_wrap=True)
     for part in found.parts:
         if part.seen_from is None or part.state is None:
             continue

@@ -142,6 +142,14 @@ PlanesOption = Annotated[
 ]
 JobsOption = Annotated[int | None, typer.Option("--jobs", min=1, help="Threads; default: one for each processor.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON for programs instead of tables.")]
+VerboseOption = Annotated[
+    bool,
+    typer.Option(
+        "--verbose",
+        help="Tell too why candidates were refused, which given size a box has, from where hidden parts would be seen, "
+        "and the time of each stage; with --json the refusals alone.",
+    ),
+]
 CLOUDS_HELP = "Clouds: .pcd, .ply, .npy, or depth images .png."
 CloudsArgument = Annotated[list[Path], typer.Argument(metavar="CLOUD...", help=CLOUDS_HELP)]
 CloudsOrPosesArgument = Annotated[list[Path] | None, typer.Argument(metavar="CLOUD...", help=CLOUDS_HELP)]

@@ -27,7 +27,8 @@ def plan(
     """Plan the motions that close a box's flaps, or say why not.
 
     Writes [bold]plan.json[/], [bold]trajectory.csv[/], [bold]trajectory.mcap[/] (trajectory_msgs/msg/JointTrajectory)
-    and the model that was planned on. Exit status 3 when some open flap is not closed by the plan.
+    and the model that was planned on; an earlier plan in that folder, and what was run of it, is removed. A plan that
+    closes nothing has no trajectory. Exit status 3 when some open flap is not closed by the plan.
 
     [bold]Examples[/]
 
@@ -39,6 +40,7 @@ def plan(
     from boxwright.cli.plan_steps import save_plan_folder
     from boxwright.io.models import load_model
 
+    planning.refuse_unfit()
     model = load_model(model_dir / "model.json")
     pose = planning.base_pose(model)
     made = planning.make(model, pose)
@@ -46,7 +48,7 @@ def plan(
         from boxwright.planning import with_moves
 
         made = with_moves(made, model, planning.robot, planning.settings())
-    files = save_plan_folder(made, model, pose, output)
+    files = save_plan_folder(made, model, pose, output, keep=model_dir)
     print_plan(made, files, as_json=as_json)
     status = exit_status(made)
     if status:

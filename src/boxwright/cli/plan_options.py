@@ -83,6 +83,18 @@ class PlanOptions:
                 "give one of --camera-pose POSE.json and --place-robot", param_hint="--camera-pose"
             )
 
+    def refuse_unfit(self) -> None:
+        """Refuses what could not be planned with on any box, before any work; raises as each of its readers does."""
+        from boxwright.io.plans import load_pose
+        from boxwright.robots import load_robot
+
+        self.require_place()
+        load_robot(self.robot)
+        self.settings()
+        self.things()
+        if self.camera_pose is not None:
+            load_pose(self.camera_pose)
+
     def base_pose(self, model: Model) -> Pose:
         """base_from_input: as it was told, or as the search for a place finds it."""
         self.require_place()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,9 +16,14 @@ NEEDS_NOTHING = ("planned", "already_closed", "absent")
 """What a flap may be where a plan leaves nothing open that could be closed."""
 
 
-def exit_status(plan: Plan) -> int:
-    """0 when every flap is closed, or needs no closing; 3 when one stays open."""
-    return 0 if all(flap.status in NEEDS_NOTHING for flap in plan.flaps.values()) else NOT_CLOSED
+def exit_status(plan: Plan, lacking: Collection[str] = ()) -> int:
+    """0 when every flap is closed, or needs no closing; 3 when one stays open.
+
+    A hidden flap that the box is known to lack (`lacking`) needs no closing.
+    """
+    needed = (name for name, flap in plan.flaps.items() if flap.status not in NEEDS_NOTHING)
+    is_open = any(plan.flaps[name].status != "hidden" or name not in lacking for name in needed)
+    return NOT_CLOSED if is_open else 0
 
 
 def print_plan(plan: Plan, files: Sequence[Path], *, as_json: bool) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from boxwright.simulation.physics import Run
-    from boxwright.types import FlapVerdict, Simulation
+    from boxwright.types import FlapVerdict, Plan, Simulation
 
 NOT_CLOSED = 3
 """Exit status when some flap was not closed (docs/formats.md)."""
@@ -19,6 +19,23 @@ def all_held(simulation: Simulation, order: Sequence[str]) -> bool:
     return simulation.failure is None and all(
         name in simulation.flaps and simulation.flaps[name].held for name in order
     )
+
+
+def all_closed(simulation: Simulation) -> bool:
+    """Is every flap that the box has closed at the end, planned or not? False for a run that proves nothing."""
+    flaps = [flap for name, flap in simulation.flaps.items() if name.startswith("flap")]
+    return simulation.failure is None and all(flap.held for flap in flaps)
+
+
+def all_as_planned(simulation: Simulation, plan: Plan) -> bool:
+    """Is every flap of the plan closed at the end, planned or not, but for hidden ones that a true box does not have?
+
+    Which flaps the box has of which a model was inferred, nobody knows.
+    """
+    from boxwright.cli.plan_report import exit_status
+
+    lacking = plan.flaps.keys() - simulation.flaps.keys() if simulation.box == "true" else ()
+    return not exit_status(plan, lacking) and all_held(simulation, plan.order)
 
 
 def draw(run: Run, folder: Path, *, picture: bool, video: bool) -> list[Path]:

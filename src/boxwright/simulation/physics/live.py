@@ -50,6 +50,8 @@ class LiveBox:
     def act(self, plan: Plan, model: Model) -> str | None:
         """Follows a plan that was made on a model of this box; where the arm was stopped, None where it was not.
 
+        That physics came apart is told alike.
+
         Raises ValueError where the planned object stands where the box does not.
         """
         found = model.objects[plan.object]
@@ -58,7 +60,7 @@ class LiveBox:
         segments = [_renamed(segment, shift) for segment in plan.segments]
         self._pushed += [segment.flap for segment in segments if segment.flap is not None and segment.kind == "push"]
         self.session.follow(segments)
-        return None if self.session.stopped is None else self.session.stopped.line()
+        return self.session.ended
 
 
 def cloud_of(frame: Frame) -> Cloud:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from os import PathLike
-from typing import Literal
+from typing import Any, Literal
 
 import msgspec
 import numpy as np
@@ -46,11 +46,13 @@ def simulate_closing(
     settings: PhysicsSettings | None = None,
     load: Load | None = None,
     others: Sequence[BoardBox] = (),
+    scene: Sequence[Mapping[str, Any]] = (),
     stills_per_s: float = 0.0,
 ) -> Run:
     """Follow a plan's segments with a tool and say what became of the box. Same arguments, same bits, but the seconds.
 
-    All is in the tool's base frame (m, rad). `others` are boxes that stay where they are.
+    All is in the tool's base frame (m, rad). `others` are boxes that stay where they are, `scene` what else stands
+    around (things.py).
 
     Raises ValueError when there is no segment, the load is none, or the crease is not known; OSError for its file.
     """
@@ -65,6 +67,7 @@ def simulate_closing(
         settings=settings,
         load=load,
         others=others,
+        scene=scene,
         stills_per_s=stills_per_s,
     )
     session.follow(segments)

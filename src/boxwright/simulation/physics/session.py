@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from typing import Literal
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
 
 import msgspec
 import numpy as np
@@ -22,15 +22,28 @@ from boxwright.simulation.physics.state import crease_moments_n_m, flap_position
 from boxwright.simulation.physics.watch import Tripped
 from boxwright.simulation.physics.world import Tool, build_world
 from boxwright.types import FlapVerdict, PlanSegment, Simulation, Stop
+from boxwright.types.checks import require_positive
 
 Array = NDArray[np.float64]
 
+HEAVIEST_KG = 1000.0
+"""No box that an arm closes weighs more; contacts of heavier ones are not what their settings were chosen for."""
+
 
 class Load(msgspec.Struct, frozen=True, kw_only=True):
-    """What is in the box: nothing, what fills it at the settings' density, or what makes up a mass in all."""
+    """What is in the box: nothing, what fills it at the settings' density, or what makes up a mass in all.
+
+    Raises ValueError for a mass that is not above 0 and at most HEAVIEST_KG.
+    """
 
     empty: bool = False
     mass_kg: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.mass_kg is not None:
+            require_positive("mass_kg", [min(self.mass_kg, HEAVIEST_KG)])
+            if self.mass_kg > HEAVIEST_KG:
+                raise ValueError(f"mass_kg is {self.mass_kg:g}; box and contents weigh {HEAVIEST_KG:g} kg at most")
 
     def contents_kg(self, box: BoardBox, settings: PhysicsSettings) -> float:
         """Raises ValueError for a mass below the empty box's."""
@@ -69,6 +82,7 @@ class Session:
         settings: PhysicsSettings | None = None,
         load: Load | None = None,
         others: Sequence[BoardBox] = (),
+        scene: Sequence[Mapping[str, Any]] = (),
         stills_per_s: float = 0.0,
     ) -> None:
         self._began = time.perf_counter()
@@ -76,8 +90,9 @@ class Session:
         self.box, self._tool = box, tool
         self._contents_kg = (load or Load()).contents_kg(box, self.settings)
         world = build_world(
-            box, crease, self.settings, others=others, tool=(tool, start, opening_m), contents_kg=self._contents_kg
-        )
+            box, crease, self.settings, others=others, scene=scene, tool=(tool, start, opening_m),
+            contents_kg=self._contents_kg,
+        )  # fmt: skip
         self.stage = Stage(world, box, stills_per_s)
         self._place, self._opening_m = start, opening_m
         self._seen: dict[str, _Seen] = {}
@@ -91,10 +106,10 @@ class Session:
         """One segment after the other, in the tool's joints; flaps are judged as the arm is done with them.
 
         A flap that this box does not have is told in `warnings`; the tool moves all the same. A tool that pressed too
-        hard is stopped there, and follows nothing any more.
+        hard is stopped there, and follows nothing any more; nor does anything go on where physics came apart.
         """
         for number, segment in enumerate(segments):
-            if self.stopped is not None:
+            if self.ended is not None:
                 return
             self._follow_one(segment)
             after = segments[number + 1].flap if number + 1 < len(segments) else None
@@ -103,8 +118,15 @@ class Session:
             elif segment.flap is not None and segment.flap != after:
                 self._rest()
                 self._judge(segment.flap)
-        if segments and segments[-1].flap is None and self.stopped is None:
+        if segments and segments[-1].flap is None and self.ended is None:
             self._rest()
+
+    @property
+    def ended(self) -> str | None:
+        """Why nothing is followed any more, in one line: the arm was stopped, or physics came apart. None otherwise."""
+        if self.stage.apart_at_s is not None:
+            return self._failure()
+        return None if self.stopped is None else self.stopped.line()
 
     def box_now(self) -> BoardBox:
         """The box as it stands now: moved, its flaps at their positions."""
@@ -117,6 +139,7 @@ class Session:
             self._first, world_from_body(stage.world, stage.data, stage.world.box.root), self.box.up
         )
         failure = self._failure()
+        told = (f"MuJoCo warns: {' '.join(line.split())}" for line in dict.fromkeys(stage.said) if failure is None)
         return Simulation(
             format="boxwright.simulation",
             version=1,
@@ -134,8 +157,8 @@ class Session:
             max_joint_error_rad=stage.max_joint_error_rad,
             unwanted=stage.watch.unwanted(),
             failure=failure,
-            warnings=tuple(self.warnings),
-            simulated_s=float(stage.data.time),
+            warnings=(*self.warnings, *told),
+            simulated_s=stage.time_s,
             seconds=time.perf_counter() - self._began,
             stopped=self.stopped,
         )
@@ -162,7 +185,7 @@ class Session:
         if flap not in self._seen:
             self._seen[flap] = _Seen(flap_positions_rad(stage.world, stage.data)[flap])
         least_rad = stage.follow(course, self._opening_m, self._allowed(flap), flap)
-        if segment.kind == "push":
+        if segment.kind == "push" and np.isfinite(least_rad):
             before_rad = self._seen[flap].pushed_to_rad
             self._seen[flap].pushed_to_rad = least_rad if before_rad is None else min(before_rad, least_rad)
 
@@ -232,8 +255,8 @@ class Session:
     def _failure(self) -> str | None:
         deep_m, pair = self.stage.watch.max_penetration_m, self.stage.watch.deepest
         worst_m = self.settings.worst_penetration_m
-        if not np.isfinite(self.stage.data.qpos).all():
-            return "the simulation came apart: a position is not finite"
+        if self.stage.apart_at_s is not None:
+            return f"physics came apart at {self.stage.apart_at_s:.2f} s: a position or speed is not finite, or huge"
         if deep_m > worst_m and pair is not None:
             return f"{pair[0]} sank {1e3 * deep_m:.2f} mm into {pair[1]}; more than {1e3 * worst_m:g} mm proves nothing"
         return None

@@ -7,7 +7,8 @@ import msgspec
 from boxwright.types.board import BOARD_G_PER_M2
 from boxwright.types.checks import require_positive
 
-LONGEST_STEP_S = 0.001
+SHORTEST_STEP_S, LONGEST_STEP_S = 0.00005, 0.001
+"""Shorter steps take a run hours and tell nothing more."""
 
 
 class PhysicsSettings(msgspec.Struct, frozen=True, kw_only=True):
@@ -55,7 +56,9 @@ class PhysicsSettings(msgspec.Struct, frozen=True, kw_only=True):
     def __post_init__(self) -> None:
         for name in self.__struct_fields__:
             require_positive(name, [getattr(self, name)])
-        if self.time_step_s > LONGEST_STEP_S:
-            raise ValueError(f"time_step_s is {self.time_step_s}; it must be {LONGEST_STEP_S} or less")
+        if not SHORTEST_STEP_S <= self.time_step_s <= LONGEST_STEP_S:
+            raise ValueError(
+                f"time_step_s is {self.time_step_s:g}; it must be {LONGEST_STEP_S} or less, and 0.00005 at the least"
+            )
         if self.contact_time_s < 2.0 * self.time_step_s:
             raise ValueError(f"contact_time_s is {self.contact_time_s}; it must be at least two time steps")

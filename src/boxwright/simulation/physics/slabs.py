@@ -67,7 +67,8 @@ def slabs_of(corners: Array, thickness_m: float, trim: Trim | None = None, *, ta
     is_even = not taper or np.abs(edges_x[:, 1] - edges_x[:, 0]).max() <= EVEN_M
     slabs = [_mean(edges_x, span_y)] if is_even else _steps(edges_x, span_y) + _strips(edges_x, span_y)
     if any((slab.half_m <= 0.0).any() for slab in slabs) or thickness_m <= 0.0:
-        raise ValueError(f"a panel of {np.round(flat, 4).tolist()} m leaves no board {thickness_m} m thick")
+        panel_mm = f"{1000.0 * np.ptp(flat[:, 0]):.0f} x {1000.0 * depth_m:.0f} mm"
+        raise ValueError(f"a panel of {panel_mm} leaves no room for board {1000.0 * thickness_m:g} mm thick")
     return [slab.placed(axes, origin, thickness_m) for slab in slabs]
 
 

@@ -1,12 +1,12 @@
-"""The scene that physics steps through: a box on its support, other boxes that stay where they are, a tool that pushes.
+"""The scene that physics steps through: a box on its support, what stays where it is around it, a tool that pushes.
 
 World frame: the robot's base frame. Gravity acts against the box's `up`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
 
 import msgspec
 import mujoco
@@ -17,6 +17,7 @@ from boxwright.simulation.physics.boards import BoardBox
 from boxwright.simulation.physics.box_bodies import BoxNames, add_box, contact_of
 from boxwright.simulation.physics.creases import Crease
 from boxwright.simulation.physics.settings import PhysicsSettings
+from boxwright.simulation.physics.things import add_things
 
 Array = NDArray[np.float64]
 
@@ -76,10 +77,11 @@ def build_world(
     settings: PhysicsSettings,
     *,
     others: Sequence[BoardBox] = (),
+    scene: Sequence[Mapping[str, Any]] = (),
     tool: tuple[Tool, Array, float] | None = None,
     contents_kg: float = 0.0,
 ) -> World:
-    """A scene; `tool` is `World.start`."""
+    """A scene; `tool` is `World.start`, `scene` what else stands around (things.py)."""
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     _set_options(spec, box, settings)
@@ -88,6 +90,7 @@ def build_world(
     names = add_box(spec, box, crease, settings, contents_kg=contents_kg)
     for k, other in enumerate(others):
         add_box(spec, other, crease, settings, prefix=f"other_{k}_", free=False)
+    add_things(spec, scene, settings)
     added = None if tool is None else tool[0].add_to(spec, settings, tool[1], tool[2])
     return World(spec.compile(), names, added, settings, tool)
 
