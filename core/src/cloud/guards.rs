@@ -16,7 +16,7 @@ const NEAREST_M: f64 = 0.03;
 const SAMPLE: usize = 16384;
 /// Fewer readings than this have no extent worth a verdict.
 const FEWEST_FOR_EXTENT: usize = 16;
-/// Points that are so far after all, were they millimetres, may well be some: cameras of this class see nothing nearer.
+/// Points that are so far, were they millimetres, may well be some: cameras of this class see nothing nearer, but others do.
 const NEAR_M: f64 = 0.2;
 /// How far a camera's image and its directions are alike: 1 of one that is seen whole, -1 of a mirrored one. Images with few readings,
 /// or all in a line, are in between and tell nothing.
@@ -51,12 +51,13 @@ fn check_unit(readings: &[Vec3], viewpoint: Option<Vec3>, unit: Unit, mend_too_f
     };
     match (size_m, unit) {
         (Some(size), Unit::Metre) if size > FARTHEST_M => {
-            let mend = if size / 1000.0 < NEAR_M { NEITHER } else { mend_too_far };
+            let is_doubtful = size / 1000.0 < NEAR_M && !is_of_depth_image(mend_too_far);
+            let mend = if is_doubtful { DOUBTFUL } else { mend_too_far };
             Err(wrong(format!("the readings' {what} is {size:.0} m, beyond any depth camera"), mend))
         }
         (Some(size), Unit::Metre) if size < NEAREST_M && readings.len() >= FEWEST_FOR_EXTENT => {
             let text = format!("the readings' {what} is {:.3} mm, nearer than any depth camera reads", size * 1e3);
-            Err(wrong(text, too_near_mend(mend_too_far)))
+            Err(wrong(text, if is_of_depth_image(mend_too_far) { mend_too_far } else { NEITHER }))
         }
         (Some(size), Unit::Millimetre) if size < NEAREST_M => {
             let text = format!("the readings' {what} is {:.2} mm, so they must be in metres", size * 1e3);
@@ -69,16 +70,13 @@ fn check_unit(readings: &[Vec3], viewpoint: Option<Vec3>, unit: Unit, mend_too_f
     }
 }
 
-/// What helps where no unit that can be told fits.
+/// What helps where no unit that can be told fits, or where one hardly does.
 const NEITHER: &str = "they are in neither metres nor millimetres: write the points in metres";
+const DOUBTFUL: &str = "if they are millimetres, say --unit mm; else write the points in metres";
 
-/// A depth image's unit may be too small as well as too large.
-fn too_near_mend(mend_too_far: &str) -> &str {
-    if mend_too_far.contains("depth_unit_m") {
-        mend_too_far
-    } else {
-        NEITHER
-    }
+/// A depth image's unit is told by itself, and may be too small as well as too large.
+fn is_of_depth_image(mend_too_far: &str) -> bool {
+    mend_too_far.contains("depth_unit_m")
 }
 
 /// In the optical frame z is forward: what a camera sees has z > 0. In OpenGL's frame it looks along -z.

@@ -15,9 +15,10 @@ const PRESSED_SHARE: f64 = 0.8;
 const CRUSHED_M: f64 = 0.002;
 
 /// A flap that is pressed onto a stack to come to rest closed is aimed this far within that, as stacks rest a little higher than told,
-/// and goes down by so much more for it at the most.
+/// and goes down by so much more for it at the most: half of what its crease gives back, within these. Where a crease gives back little,
+/// a flap far from closed lies on much, and would be pressed hard.
 const HOME_RAD: f64 = 0.0175;
-const MOST_PRESSED_RAD: f64 = 0.108;
+const MOST_PRESSED_RAD: [f64; 2] = [0.0611, 0.108];
 
 impl<G: Guard> Closer<'_, G> {
     /// How far a flap is pushed: less where it comes to lie on others or carries a tuck.
@@ -49,7 +50,8 @@ impl<G: Guard> Closer<'_, G> {
     fn pressed_home_rad(&self, flap: usize, hold_rad: f64) -> f64 {
         let (settings, fold) = (self.settings, &self.load.folds[flap]);
         let home_rad = fold.held_rad(settings.closed_rad - HOME_RAD);
-        let is_near = fold.rest_rad(hold_rad) > settings.closed_rad && hold_rad - home_rad <= MOST_PRESSED_RAD;
+        let most_rad = (fold.return_rad / 2.0).clamp(MOST_PRESSED_RAD[0], MOST_PRESSED_RAD[1]);
+        let is_near = fold.rest_rad(hold_rad) > settings.closed_rad && hold_rad - home_rad <= most_rad;
         if is_near {
             hold_rad.min(home_rad)
         } else {
