@@ -56,6 +56,10 @@ ON_THE_BASE = (1142, 113, "flap_3")
 """A flap of a flat box that meets its base before it is as far beyond closed as its crease gives back."""
 ASLANT = (1143, 86, "flap_2")
 """A flap far from the arm whose edge alone is in reach, with the finger aslant on it."""
+HEAVY = (1145, 286, "flap_3")
+"""A lid that its weight keeps down: pushed 9 degrees beyond closed, it fell into the box."""
+SPRINGS_OFF = (1145, 145, "flap_3")
+"""A flap pushed only as far as the stack below is told to let it, which sprang off that beyond closed."""
 FAR_OFF = (1133, 7, "flap_3")
 """A flap that no posture reaches once its box stands 0.4 m further away: what is near the hand is no reason."""
 NEAR_THE_SUPPORT = (1143, 59, "flap_1")
@@ -294,3 +298,12 @@ def test_a_flap_out_of_reach_is_told_as_such_whatever_is_near_it() -> None:
     base_from_input[:2, 3] = 0.4 * middle / np.linalg.norm(middle)
     flap = plan_closing(problem.model, ROBOT, base_from_input, settings=told("ordinary")).flaps[name]
     assert (flap.status, flap.reason) == ("unreachable", "where it stands: is out of the arm's reach")
+
+
+@pytest.mark.parametrize("pinned", [HEAVY, SPRINGS_OFF])
+def test_a_flap_is_pushed_as_far_as_its_weight_and_its_crease_ask(pinned: tuple[int, int, str]) -> None:
+    seed, number, name = pinned
+    plan = _plan(seed, number, "ordinary")
+    assert plan.flaps[name].status == "planned"
+    assert _keeps_clear(seed, number, plan)
+    assert _all_held(seed, number, "ordinary", plan)

@@ -58,7 +58,8 @@ class PhysicsSettings(msgspec.Struct, frozen=True, kw_only=True):
             require_positive(name, [getattr(self, name)])
         if not SHORTEST_STEP_S <= self.time_step_s <= LONGEST_STEP_S:
             raise ValueError(
-                f"time_step_s is {self.time_step_s:g}; it must be {LONGEST_STEP_S} or less, and 0.00005 at the least"
+                f"time_step_s is {self.time_step_s:g}; it must be {LONGEST_STEP_S} or less, "
+                f"and {SHORTEST_STEP_S:.5f} at the least"
             )
         if self.contact_time_s < 2.0 * self.time_step_s:
             raise ValueError(f"contact_time_s is {self.contact_time_s}; it must be at least two time steps")
